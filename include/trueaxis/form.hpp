@@ -50,7 +50,11 @@ struct FormOptions {
   double spindle_range_mm = 0.0;          ///< range of a motion that is not known by its orders
   Criterion datum = Criterion::gaussian;  ///< of the datum's circle or cylinder
   double coverage_factor = 2.0;
-  int trials = 400;  ///< of the Monte Carlo: u to 3.5 %
+  /// false: about least squares and the minimum zone alone, by Eqs. 265 and 273 about the axis of
+  /// least squares (to 1e-9 mm), as quick as a diagnosis wants it.
+  bool all_references = true;
+  bool each_turn_by_itself = false;  ///< a helix is not estimated as one surface
+  int trials = 400;                  ///< of the Monte Carlo: u to 3.5 %; of a surface 100 at least
   std::uint64_t seed = 12181;
   int threads = 0;  ///< 0: as many as there are; the values do not depend on it
 };
@@ -61,6 +65,8 @@ struct FormValue {
   std::string reference;  ///< "LSCI" …: what it is about; empty: it needs none
   Estimate estimate;      ///< value and u, in mm (slopes: mm per rad)
   double bias_mm = 0.0;   ///< by how much noise makes it larger on average; in u, not taken off
+  /// Nothing beyond the noise: no value, and the interval ends at its 95 % bound.
+  bool unresolved = false;
 };
 
 /// Ends of the interval value ± k u, or of the bounds that stand in the place of a value.
@@ -111,6 +117,15 @@ struct FormGroup {
   std::vector<FormValue> values;
 };
 
+/// A surface that was estimated from all readings together; its `sections` are read off it.
+struct FormSurface {
+  std::size_t readings = 0;
+  double turns = 1.0;
+  int orders = 0, degrees = 0;  ///< as far as it was estimated: around, and along Z
+  double noise_mm = 0.0;        ///< standard deviation of a reading
+  std::vector<int> orders_found{};
+};
+
 /// Lobes that were found and that the cut-off takes part of.
 struct SwallowedLobes {
   int order = 0;
@@ -121,6 +136,7 @@ struct SwallowedLobes {
 struct FormResult {
   std::vector<SectionForm> sections;
   std::vector<FormGroup> groups;
+  std::optional<FormSurface> surface{};  ///< none: every section was assessed by itself
   /// Not empty: RONt, CYLt and what else rests on them are bounds (Estimate::interval), no values.
   std::vector<SwallowedLobes> swallowed{};
   FormOptions options;
@@ -136,7 +152,7 @@ struct TakenOff {
   bool of_datum = false;                            ///< off the datum's readings, else the part's
 };
 
-/// Form of what a lateral stream (X_M, C, Z: sections, or a helix that is cut into turns) or a face
+/// Form of what a lateral stream (X_M, C, Z: sections, or a helix, which is one surface) or a face
 /// stream (Z_M, C, X) shows. Values against a datum are about the axis of `datum`, a stream of the
 /// same clamping; without one about the spindle axis. u holds what `taken_off` is uncertain by.
 /// @throws InputError with what the readings cannot carry: fewer than 7 a wave at the cut-off, less
@@ -146,7 +162,8 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& options = {
                        std::span<const TakenOff> taken_off = {});
 
 /// The highest cut-off (UPR) that every section of a lateral stream carries by 7 readings a wave
-/// (ISO 12181-2), 500 at most; below 2 no filter can be had. @throws InputError as assess_form
+/// (ISO 12181-2), 500 at most, or the angles of all readings of a surface, 50 at most; below 2 no
+/// filter can be had. @throws InputError as assess_form
 int carried_upr(const ProbeStream& stream, const FormOptions& options = {});
 
 /// The same of points x y z (mm) of a line, circle, plane or cylinder, in any orientation. Sections

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 #include "form/face.hpp"
 #include "form/notes.hpp"
@@ -36,8 +38,9 @@ void share_noise(std::vector<SectionModel>& models, const FormOptions& options) 
     one.set_noise_of_reading(std::max(shown_mm, options.noise_mm.value_or(0.0)));
 }
 
+/// @param together what the readings carry as one surface
 std::vector<SectionModel> models_of(const Sections& sections, const FormOptions& options,
-                                    const std::string& source) {
+                                    const std::string& source, int together) {
   std::vector<SectionModel> models;
   std::vector<Diagnostic> wrong;
   for (const SectionReadings& one : sections.list) {
@@ -55,9 +58,37 @@ std::vector<SectionModel> models_of(const Sections& sections, const FormOptions&
         {source, 0, 0,
          fmt::format("{} more sections likewise; all of them carry up to {} UPR", more, carried)});
   }
+  if (!wrong.empty() && together >= 2)
+    wrong = {{source, 0, 0,
+              fmt::format("{:g} UPR needs more angles than the readings have, 7 a wave: as one "
+                          "surface they carry up to {} UPR (--upr 1-{})",
+                          options.high_upr, together, together)}};
   if (!wrong.empty()) throw InputError(std::move(wrong));
   share_noise(models, options);
   return models;
+}
+
+/// A part as one surface where its readings carry the cut-off together, else section by section.
+struct Part {
+  PartModel model;
+  Sections sections;
+};
+
+Part part_of(const ProbeStream& stream, const FormOptions& options) {
+  Part out;
+  const int carried =
+      options.filter == ProfileFilter::none ? 0 : upr_of_surface(stream, options).by_steps;
+  if (carried < options.high_upr) {
+    out.sections = sections_of(stream, options);
+    out.model.sections = models_of(out.sections, options, stream.source, carried);
+    return out;
+  }
+  const SurfaceReadings readings = surface_readings(stream, options);
+  out.sections.radius_known = readings.radius_known;
+  out.sections.notes.push_back(note_of_surface(readings));
+  out.model.surface.emplace(readings, options);
+  out.model.sections = out.model.surface->sections();
+  return out;
 }
 
 /// One section against an axis: its run-out and concentricity.
@@ -86,8 +117,9 @@ class Assessment {
              const FormOptions& options)
       : part_(part), datum_(datum), options_(options) {
     const Criterion of_datum[] = {Criterion::gaussian, options.datum};
-    if (part.size() > 1 && part.front().radius_known()) whole_.emplace(part, form_criteria);
-    if (datum.size() > 1) whole_datum_.emplace(datum, of_datum);
+    if (part.size() > 1 && part.front().radius_known())
+      whole_.emplace(part, criteria_of(options.all_references), options.all_references);
+    if (datum.size() > 1) whole_datum_.emplace(datum, of_datum, options.all_references);
   }
 
   std::vector<NamedValue> measured(const Profiles& profiles) const {
@@ -121,7 +153,7 @@ class Assessment {
     if (whole_datum_) add(whole_datum_->rocking(options_.datum), "Datum: ");
     for (const Criterion criterion :
          {Criterion::minimum_circumscribed, Criterion::maximum_inscribed})
-      if (whole_) add(whole_->rocking(criterion), "");
+      if (whole_ && options_.all_references) add(whole_->rocking(criterion), "");
     return out;
   }
 
@@ -155,17 +187,68 @@ FormGroup& group_named(FormResult& result, const std::string& name) {
   return result.groups.emplace_back(FormGroup{name, {}});
 }
 
+/// Values without form beyond the noise, of which a surface gives bounds.
+class Unresolved {
+ public:
+  Unresolved(const std::vector<NamedValue>& values, const std::vector<Spread>& spread, double k) {
+    for (std::size_t v = 0; v < values.size(); ++v)
+      resolved_[family(values[v])] |= is_whole(values[v]) && values[v].value > k * spread[v].u;
+  }
+  bool has(const NamedValue& value, const Spread& spread) const {
+    return std::ranges::find(of_form, value.name) != std::end(of_form) && spread.u > 0.0 &&
+           !resolved_.at(family(value));
+  }
+
+ private:
+  static constexpr std::string_view of_form[] = {"RONt",        "RONp",  "RONv",  "RONq",
+                                                 "CYLt",        "CYLp",  "CYLv",  "CYLq",
+                                                 "CONt",        "STRsa", "STRsg", "runout_circular",
+                                                 "runout_total"};
+  /// RONt, and not its parts RONp, RONv and RONq.
+  static bool is_whole(const NamedValue& value) {
+    return value.name.size() > 4 || value.name.ends_with('t');
+  }
+  /// Of RONt, RONp … about one circle.
+  static std::string family(const NamedValue& value) {
+    return value.name.substr(0, 3) + (value.name.size() > 4 ? value.name : "") + value.reference;
+  }
+  std::map<std::string, bool> resolved_;
+};
+
+Estimate estimate_of(const NamedValue& value, const Spread& spread, bool unresolved) {
+  if (!unresolved) return {value.value, spread.u, value.unit, ""};
+  return {.unit = value.unit,
+          .why_not = "no form beyond the noise",
+          .interval = std::array{0.0, std::max(spread.bound, value.value + 2.0 * spread.u)}};
+}
+
 void hand_out(FormResult& result, const std::vector<NamedValue>& values,
               const std::vector<Spread>& spread) {
+  const Unresolved unresolved(values, spread, result.options.coverage_factor);
   const std::size_t of_sections = std::ranges::count(values, "section", &NamedValue::group);
   const std::size_t each = result.sections.empty() ? 0 : of_sections / result.sections.size();
   for (std::size_t v = 0; v < values.size(); ++v) {
     const NamedValue& one = values[v];
     auto& list = one.group == "section" ? result.sections[v / each].values
                                         : group_named(result, one.group).values;
+    const bool bound = result.surface && unresolved.has(one, spread[v]);
     list.push_back(
-        {one.name, one.reference, {one.value, spread[v].u, one.unit, ""}, spread[v].bias});
+        {one.name, one.reference, estimate_of(one, spread[v], bound), spread[v].bias, bound});
   }
+}
+
+/// A surface's draws take in what was taken off its readings; what is left is of sections.
+std::vector<TakenOff> hand_to_surfaces(std::span<const TakenOff> taken_off, PartModel& part,
+                                       PartModel& datum) {
+  std::vector<TakenOff> out;
+  for (const TakenOff& one : taken_off) {
+    std::optional<SurfaceModel>& surface = one.of_datum ? datum.surface : part.surface;
+    if (surface)
+      surface->add_taken_off(one.columns_mm, one.correlation);
+    else
+      out.push_back(one);
+  }
+  return out;
 }
 
 Profiles measured_profiles(const std::vector<SectionModel>& part,
@@ -193,69 +276,76 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
     assess_face(stream, taken_off, result);
     return result;
   }
-  const Sections sections = sections_of(stream, options);
-  const std::vector<SectionModel> part = models_of(sections, options, stream.source);
-  Sections of_datum;
+  Part part = part_of(stream, options);
+  Part of_datum;
   if (datum) {
     result.datum_source = datum->source;
-    of_datum = sections_of(*datum, options);
-    if (!of_datum.radius_known || !sections.radius_known)
+    FormOptions other = options;
+    ++other.seed;  // its draws are its own
+    of_datum = part_of(*datum, other);
+    if (!of_datum.sections.radius_known || !part.sections.radius_known)
       throw InputError(datum->source,
                        "part and datum need radii, which a relative gauge without nominal_radius "
                        "does not give: `# nominal_radius: R mm` in both streams");
   }
-  const std::vector<SectionModel> datum_part =
-      models_of(of_datum, options, datum ? datum->source : "");
-  const Assessment assessment(part, datum_part, options);
-  const Profiles measured = measured_profiles(part, datum_part);
+  const std::vector<TakenOff> of_sections = hand_to_surfaces(taken_off, part.model, of_datum.model);
+  const std::vector<SectionModel>& sections = part.model.sections;
+  const Assessment assessment(sections, of_datum.model.sections, options);
+  const Profiles measured = measured_profiles(sections, of_datum.model.sections);
   const auto values = assessment.measured(measured);
-  const Assess near = [&](const Profiles& profiles) { return assessment.near(profiles); };
-  auto spread = spreads(part, datum_part, options, near);
   const auto near_with_centres = [&](const Profiles& profiles) {
     std::vector<NamedValue> all = assessment.near(profiles);
-    for (std::size_t s = 0; s < part.size(); ++s) {
-      const AxisOffset centre = part[s].centre(profiles.part_mm[s]);
+    for (std::size_t s = 0; s < sections.size(); ++s) {
+      const AxisOffset centre = sections[s].centre(profiles.part_mm[s]);
       all.push_back({"section", eccentricity, "LSCI", std::hypot(centre.x_mm, centre.y_mm)});
     }
     return all;
   };
-  spread.resize(values.size() + part.size());
-  add_taken_off(
-      taken_off, near_with_centres(measured), spread, [&](const TakenOff& one, std::size_t k) {
-        const bool of_datum = datum && one.of_datum;
-        Profiles moved = measured;
-        ProbeStream readings = of_datum ? *datum : stream;
-        readings.reading_mm = added(readings.reading_mm, one, k);
-        const Sections changed = sections_of(readings, options);
-        const std::vector<SectionModel>& models = of_datum ? datum_part : part;
-        std::vector<std::vector<double>>& profiles = of_datum ? moved.datum_mm : moved.part_mm;
-        for (std::size_t s = 0; s < models.size(); ++s)
-          profiles[s] = models[s].changed(changed.list[s]);
-        return near_with_centres(moved);
-      });
-  for (std::size_t s = 0; s < part.size(); ++s) {
-    result.sections.push_back(part[s].form());
+  const Assess near = [&](const Profiles& profiles) { return assessment.near(profiles); };
+  auto spread = spreads(part.model, of_datum.model, options,
+                        part.model.surface ? Assess(near_with_centres) : near);
+  spread.resize(values.size() + sections.size());
+  if (!of_sections.empty())
+    add_taken_off(of_sections, near_with_centres(measured), spread,
+                  [&](const TakenOff& one, std::size_t k) {
+                    const bool other = datum && one.of_datum;
+                    Profiles moved = measured;
+                    ProbeStream readings = other ? *datum : stream;
+                    readings.reading_mm = added(readings.reading_mm, one, k);
+                    const Sections changed = sections_of(readings, options);
+                    const auto& models = other ? of_datum.model.sections : sections;
+                    auto& profiles = other ? moved.datum_mm : moved.part_mm;
+                    for (std::size_t s = 0; s < models.size(); ++s)
+                      profiles[s] = models[s].changed(changed.list[s]);
+                    return near_with_centres(moved);
+                  });
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    result.sections.push_back(sections[s].form());
+    const double u = spread[values.size() + s].u;
     for (FormValue& one : result.sections.back().values)
       if (one.name == eccentricity)
-        one.estimate.u = std::hypot(one.estimate.u, spread[values.size() + s].u);
+        one.estimate.u = part.model.surface ? u : std::hypot(one.estimate.u, u);
   }
-  result.radius_known = sections.radius_known;
+  result.radius_known = part.sections.radius_known;
+  if (part.model.surface) result.surface = part.model.surface->form();
   hand_out(result, values, spread);
-  result.swallowed = swallowed_lobes(part, options);
+  result.swallowed =
+      part.model.surface ? part.model.surface->swallowed() : swallowed_lobes(sections, options);
   withhold_swallowed(result);
-  add_notes(stream, sections, result);
+  add_notes(stream, part.sections, result);
   for (std::string& note : assessment.notes()) result.notes.push_back(std::move(note));
   return result;
 }
 
 int carried_upr(const ProbeStream& stream, const FormOptions& options) {
   using namespace form;
+  const int together = upr_of_surface(stream, options).by_gaps_too;
   int carried = 500;
   for (const SectionReadings& one : sections_of(stream, options).list) {
     const SectionTrace section(one, true, options.high_upr);
     carried = std::min(carried, section.trouble().empty() ? highest_order(section.trace()) : 0);
   }
-  return carried;
+  return std::max(carried, together);
 }
 
 }  // namespace trueaxis

@@ -13,23 +13,22 @@ namespace {
 constexpr int directions = 12;  // a section begins with; others follow where they are needed
 constexpr int most_additions = 50;
 
-/// Least t with Σ_k q_k φ_k(centre, φ) + t ≥ the centre's distance in every direction φ; `tilts`:
-/// the axis may lean.
-double smallest(std::span<const CentrePoint> centres, bool tilts) {
+/// Least t with Σ_k q_k φ_k(centre, φ) + t ≥ the centre's distance in every direction φ, about an
+/// axis that may lean.
+double smallest(std::span<const CentrePoint> centres) {
   double z_low = 1e300, z_high = -1e300;
   for (const CentrePoint& one : centres) {
     z_low = std::min(z_low, one.z_mm);
     z_high = std::max(z_high, one.z_mm);
   }
   const double middle = 0.5 * (z_low + z_high), half = std::max(0.5 * (z_high - z_low), 1e-9);
-  const Eigen::Index unknowns = tilts ? 5 : 3;
+  constexpr Eigen::Index unknowns = 5;
   std::vector<Eigen::VectorXd> rows;
   std::vector<double> y;
   const auto add = [&](const CentrePoint& centre, double angle) {
     const double c = std::cos(angle), s = std::sin(angle), z = (centre.z_mm - middle) / half;
     Eigen::VectorXd row(unknowns);
-    row.head<3>() << 1.0, c, s;
-    if (tilts) row.tail<2>() << z * c, z * s;
+    row << 1.0, c, s, z * c, z * s;
     rows.push_back(row);
     y.push_back(c * centre.x_mm + s * centre.y_mm);
   };
@@ -44,8 +43,8 @@ double smallest(std::span<const CentrePoint> centres, bool tilts) {
     double largest = 0.0;
     for (const CentrePoint& centre : centres) {
       const double z = (centre.z_mm - middle) / half;
-      const double x = centre.x_mm - nearest.q[1] - (tilts ? z * nearest.q[3] : 0.0);
-      const double off_y = centre.y_mm - nearest.q[2] - (tilts ? z * nearest.q[4] : 0.0);
+      const double x = centre.x_mm - nearest.q[1] - z * nearest.q[3];
+      const double off_y = centre.y_mm - nearest.q[2] - z * nearest.q[4];
       largest = std::max(largest, std::hypot(x, off_y));
       if (std::hypot(x, off_y) > size * (1.0 + 1e-13)) add(centre, std::atan2(off_y, x));
     }
@@ -78,8 +77,46 @@ AxisLine least_squares_line(std::span<const CentrePoint> centres) {
 }
 
 double smallest_cylinder_mm(std::span<const CentrePoint> centres) {
-  return centres.size() < 3 ? 0.0 : smallest(centres, true);
+  return centres.size() < 3 ? 0.0 : smallest(centres);
 }
+
+namespace {
+
+/// The least circle that holds all points, by those that it rests on (Welzl 1991).
+double smallest_circle_mm(std::span<const CentrePoint> points) {
+  double x = points[0].x_mm, y = points[0].y_mm, r = 0.0;
+  const auto holds = [&](const CentrePoint& one) {
+    return std::hypot(one.x_mm - x, one.y_mm - y) <= r * (1.0 + 1e-13);
+  };
+  const auto over_two = [&](const CentrePoint& a, const CentrePoint& b) {
+    x = 0.5 * (a.x_mm + b.x_mm);
+    y = 0.5 * (a.y_mm + b.y_mm);
+    r = std::hypot(a.x_mm - x, a.y_mm - y);
+  };
+  const auto over_three = [&](const CentrePoint& a, const CentrePoint& b, const CentrePoint& c) {
+    const double bx = b.x_mm - a.x_mm, by = b.y_mm - a.y_mm;
+    const double cx = c.x_mm - a.x_mm, cy = c.y_mm - a.y_mm;
+    const double twice = 2.0 * (bx * cy - by * cx), b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+    if (twice == 0.0) return;
+    const double dx = (cy * b2 - by * c2) / twice, dy = (bx * c2 - cx * b2) / twice;
+    x = a.x_mm + dx;
+    y = a.y_mm + dy;
+    r = std::hypot(dx, dy);
+  };
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (holds(points[i])) continue;
+    x = points[i].x_mm, y = points[i].y_mm, r = 0.0;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (holds(points[j])) continue;
+      over_two(points[i], points[j]);
+      for (std::size_t k = 0; k < j; ++k)
+        if (!holds(points[k])) over_three(points[i], points[j], points[k]);
+    }
+  }
+  return 2.0 * r;
+}
+
+}  // namespace
 
 double smallest_parallel_cylinder_mm(std::span<const CentrePoint> centres, const AxisLine& datum) {
   std::vector<CentrePoint> sheared(centres.begin(), centres.end());
@@ -87,7 +124,7 @@ double smallest_parallel_cylinder_mm(std::span<const CentrePoint> centres, const
     one.x_mm -= datum.l * one.z_mm;
     one.y_mm -= datum.m * one.z_mm;
   }
-  return sheared.size() < 2 ? 0.0 : smallest(sheared, false);
+  return sheared.size() < 2 ? 0.0 : smallest_circle_mm(sheared);
 }
 
 double coaxiality_mm(std::span<const CentrePoint> centres, const AxisLine& datum) {

@@ -2,6 +2,7 @@
 #include "form/circle.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "trueaxis/error.hpp"
 
@@ -12,12 +13,20 @@ AssociatedCircle limacon(std::span<const double> angle_rad, std::span<const doub
                          Criterion criterion) {
   Exchange exchange(limacon_rows(angle_rad), criterion);
   const Nearest nearest = exchange(deviation_mm);
-  return {nearest.q[1],    nearest.q[2],
-          nearest.q[0],    exchange.off(deviation_mm, nearest),
-          nearest.touches, nearest.determined ? "" : "the readings do not hold it"};
+  return circle_near(exchange.off(deviation_mm, nearest), nearest, 0.0);
 }
 
 }  // namespace
+
+AssociatedCircle circle_near(std::vector<double> off_mm, const Nearest& nearest, double radius_mm) {
+  return {
+      nearest.q[1],      nearest.q[2],    radius_mm + nearest.q[0],
+      std::move(off_mm), nearest.touches, nearest.determined ? "" : "the readings do not hold it"};
+}
+
+std::span<const Criterion> criteria_of(bool all_references) {
+  return std::span<const Criterion>(form_criteria).first(all_references ? form_criteria.size() : 2);
+}
 
 Exchange::Rows limacon_rows(std::span<const double> angle_rad) {
   Exchange::Rows rows(static_cast<Eigen::Index>(angle_rad.size()), 3);

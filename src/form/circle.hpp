@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "form/exchange.hpp"
+#include "trueaxis/form.hpp"
 
 namespace trueaxis::form {
 
@@ -23,6 +24,12 @@ struct AssociatedCircle {
 AssociatedCircle associate_circle(std::span<const double> angle_rad,
                                   std::span<const double> deviation_mm, double radius_mm,
                                   Criterion criterion);
+
+/// The same of a limaçon that is so near to a pole with a radius (0: none) that it is the circle.
+AssociatedCircle circle_near(std::vector<double> off_mm, const Nearest& nearest, double radius_mm);
+
+/// All four criteria, or least squares and the minimum zone alone.
+std::span<const Criterion> criteria_of(bool all_references);
 
 /// 1, cos θ, sin θ of each angle: a row of Eq. 265.
 Exchange::Rows limacon_rows(std::span<const double> angle_rad);

@@ -75,7 +75,9 @@ void note_ball(FormResult& result) {
   }
 }
 
+/// Of a surface the value has no such bias.
 void note_noise(FormResult& result) {
+  if (result.surface) return;
   double share = 0.0, bias = 0.0, value = 0.0;
   for (const SectionForm& section : result.sections)
     for (const FormValue& one : section.values)
@@ -105,6 +107,14 @@ void expect_options(const FormOptions& options) {
   if (options.trials < 10) add("a Monte Carlo takes 10 trials at least");
   if (!(options.coverage_factor > 0.0)) add("the coverage factor is above 0");
   if (!wrong.empty()) throw InputError(std::move(wrong));
+}
+
+std::string note_of_surface(const SurfaceReadings& readings) {
+  return fmt::format(
+      "The form is estimated as one surface from all {} readings ({:.4g} revolutions or sections). "
+      "Values are read from it at stations along Z. Form that changes within {} cannot be seen",
+      readings.size(), readings.turns,
+      readings.turns < 10.0 ? "a revolution along Z" : "a tenth of the length");
 }
 
 void add_notes(const ProbeStream& stream, const Sections& sections, FormResult& result) {

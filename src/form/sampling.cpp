@@ -54,11 +54,11 @@ double usual_step(const Trace& trace) {
 
 double points_per_cycle(const Trace& trace, double cutoff) { return cutoff / usual_step(trace); }
 
-int highest_order(const Trace& trace) {
+int highest_order(const Trace& trace, bool gaps_count) {
   double widest = 0.0;
   for (std::size_t i = 0; i < trace.size(); ++i) widest = std::max(widest, trace.step(i));
   const double by_step = trace.period / (least_points_per_cycle * usual_step(trace));
-  const double by_gap = 0.5 * trace.period / widest;
+  const double by_gap = gaps_count ? 0.5 * trace.period / widest : 500.0;
   return static_cast<int>(std::floor(turn_rounding * std::min({by_step, by_gap, 500.0})));
 }
 
@@ -99,6 +99,37 @@ double measured_transmission(const Trace& trace, const LowPass& filter, double c
     }
   }
   return std::sqrt(after / before);
+}
+
+namespace {
+
+double passed(ProfileFilter kind, double upr, double order, double step_rad) {
+  if (order == 0.0) return 1.0;
+  const double cutoff = two_pi / upr, wave = two_pi / order;
+  switch (kind) {
+    case ProfileFilter::gaussian:
+      return gaussian_transmission(cutoff, wave);
+    case ProfileFilter::robust_gaussian:
+      return robust_transmission(cutoff, wave);
+    case ProfileFilter::spline:
+      return spline_transmission(cutoff, wave, step_rad);
+    case ProfileFilter::none:
+      break;
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+double passed_by_low_pass(const FormOptions& options, double order, double step_rad) {
+  return passed(options.filter, options.high_upr, order, step_rad);
+}
+
+double passed_by_band(const FormOptions& options, double order) {
+  constexpr double fine = 1e-4;  // of a spline
+  const double high = passed_by_low_pass(options, order, fine);
+  if (options.low_upr <= 1.0) return high;
+  return high * (1.0 - passed(options.filter, options.low_upr, order, fine));
 }
 
 std::unique_ptr<LowPass> low_pass(ProfileFilter kind, const Trace& trace, double cutoff) {

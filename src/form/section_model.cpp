@@ -61,10 +61,34 @@ SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
   profile_mm_ = filtered(raw().value_mm);
   orders_ = harmonics_of(
       raw(), std::max(1, std::min(highest_order(raw()), static_cast<int>(raw().size()) / 3)));
-  for (const Criterion criterion : form_criteria) {
-    circles_.push_back(associate_circle(raw().at, profile_mm_, trace_.radius_mm(), criterion));
-    near_.emplace_back(limacon_rows(raw().at), criterion);
-    near_.back()(profile_mm_);
+  associate_circles(options.all_references);
+}
+
+SectionModel::SectionModel(StationOfSurface station, bool radius_known, const FormOptions& options)
+    : trace_(station.raw, {station.x_mm, station.y_mm, station.mean_mm}, radius_known),
+      z_mm_(station.z_mm),
+      noise_mm_(station.noise_mm),
+      shown_mm_(station.noise_mm),
+      low_upr_(options.low_upr),
+      high_upr_(options.high_upr),
+      turns_(station.turns),
+      readings_(station.readings),
+      profile_mm_(station.profile_mm),
+      orders_(station.orders) {
+  make_slope(options);
+  associate_circles(options.all_references);
+  station_ = std::move(station);
+}
+
+void SectionModel::associate_circles(bool all_references) {
+  const Exchange::Rows rows = limacon_rows(raw().at);
+  for (const Criterion criterion : criteria_of(all_references)) {
+    near_.emplace_back(rows, criterion);
+    const Nearest nearest = near_.back()(profile_mm_);
+    circles_.push_back(
+        all_references
+            ? associate_circle(raw().at, profile_mm_, trace_.radius_mm(), criterion)
+            : circle_near(near_.back().off(profile_mm_, nearest), nearest, trace_.radius_mm()));
   }
 }
 
@@ -79,8 +103,13 @@ void SectionModel::make_filter(const FormOptions& options) {
   high_ = low_pass(options.filter, raw(), cutoff_rad_);
   if (high_ && options.low_upr > 1.0)
     low_ = low_pass(options.filter, raw(), two_pi / options.low_upr);
-  const double longest =
-      options.filter == ProfileFilter::none ? 0.1 * two_pi : longest_step(cutoff_rad_);
+  make_slope(options);
+}
+
+void SectionModel::make_slope(const FormOptions& options) {
+  const double longest = options.filter == ProfileFilter::none
+                             ? 0.1 * two_pi
+                             : longest_step(two_pi / options.high_upr);
   slope_ = std::make_shared<Derivative>(raw(), longest);
 }
 
@@ -111,7 +140,7 @@ std::vector<NamedValue> SectionModel::near(std::span<const double> filtered_mm) 
 std::vector<NamedValue> SectionModel::values_of(const std::vector<std::vector<double>>& off_mm,
                                                 std::span<const double> filtered_mm) const {
   std::vector<NamedValue> values;
-  for (std::size_t c = 0; c < form_criteria.size(); ++c) {
+  for (std::size_t c = 0; c < off_mm.size(); ++c) {
     const Criterion criterion = form_criteria[c];
     const std::vector<double>& off = off_mm[c];
     const auto [low, high] = range_of(off);
@@ -142,7 +171,11 @@ SectionForm SectionModel::form() const {
     for (const Gap& gap : gaps_of(raw(), longest_step(cutoff_rad_))) form.gaps_rad += gap.length;
     form.transmission = measured_transmission(raw(), *high_, cutoff_rad_);
   }
-  for (std::size_t c = 0; c < form_criteria.size(); ++c) {
+  if (station_) {
+    form.points_per_cycle = station_->points_per_cycle;
+    form.gaps_rad = station_->gaps_rad;
+  }
+  for (std::size_t c = 0; c < circles_.size(); ++c) {
     const AssociatedCircle& circle = circles_[c];
     FormCircle& out = form.circles.emplace_back();
     out.criterion = form_criteria[c];
@@ -174,9 +207,10 @@ SectionForm SectionModel::form() const {
   const double u_centre = form.harmonics.empty() ? 0.0 : form.harmonics.front().u_mm;
   form.values.push_back(
       {"eccentricity", "LSCI", {std::hypot(least.x_mm, least.y_mm), u_centre, "mm", ""}, 0.0});
+  const double u_radius =
+      station_ ? noise_mm_ * orders_.front().u_per_sigma : noise_mm_ / std::sqrt(n);
   if (radius_known())
-    form.values.push_back(
-        {"radius", "LSCI", {least.radius_mm, noise_mm_ / std::sqrt(n), "mm", ""}, 0.0});
+    form.values.push_back({"radius", "LSCI", {least.radius_mm, u_radius, "mm", ""}, 0.0});
   form.profile = {raw().at, raw().value_mm, profile_mm_};
   return form;
 }

@@ -26,10 +26,21 @@ struct AxisOffset {
 /// orders without form are above, as exp(−6/2).
 inline constexpr double shown_over_noise = 6.0;
 
+/// A section read off a surface (`SurfaceModel`): all that `SectionModel` is of.
+struct StationOfSurface {
+  double z_mm = 0.0, x_mm = 0.0, y_mm = 0.0, mean_mm = 0.0;  ///< its least-squares circle
+  Trace raw{};                                               ///< about it
+  std::vector<double> profile_mm{};                          ///< that, filtered
+  std::vector<Order> orders{};
+  double noise_mm = 0.0, turns = 1.0, gaps_rad = 0.0, points_per_cycle = 0.0;
+  std::size_t readings = 0;
+};
+
 /// One section ready to be filtered and assessed, as often as a Monte Carlo asks.
 class SectionModel {
  public:
   SectionModel(const SectionReadings& readings, bool radius_known, const FormOptions& options);
+  SectionModel(StationOfSurface station, bool radius_known, const FormOptions& options);
 
   /// Standard deviation of single readings that this section alone shows. Eq. 270.
   double shown_noise_of_reading_mm() const { return shown_mm_ / std::sqrt(averaged_); }
@@ -70,6 +81,8 @@ class SectionModel {
 
  private:
   void make_filter(const FormOptions& options);
+  void associate_circles(bool all_references);
+  void make_slope(const FormOptions& options);
 
   std::vector<NamedValue> values_of(const std::vector<std::vector<double>>& off_mm,
                                     std::span<const double> filtered_mm) const;
@@ -79,6 +92,7 @@ class SectionModel {
   double noise_mm_ = 0.0, shown_mm_ = 0.0, averaged_ = 1.0;
   double cutoff_rad_ = 0.0, low_upr_ = 1.0, high_upr_ = 0.0, turns_ = 1.0;
   std::size_t readings_ = 0;
+  std::optional<StationOfSurface> station_;
   std::shared_ptr<const LowPass> high_, low_;
   std::shared_ptr<const Derivative> slope_;
   std::vector<double> profile_mm_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "form/sections.hpp"
@@ -15,6 +16,17 @@ class SectionTrace {
   /// @param radius_known false: the readings are of a gauge without a nominal radius; Eq. 265
   /// @param high_upr cut-off, by which a section of very many readings is averaged to places
   SectionTrace(const SectionReadings& readings, bool radius_known, double high_upr);
+
+  /// Of a trace that is about its circle.
+  struct Circle {
+    double x_mm, y_mm, mean_mm;
+  };
+  SectionTrace(Trace about, const Circle& circle, bool radius_known)
+      : trace_(std::move(about)),
+        x_mm_(circle.x_mm),
+        y_mm_(circle.y_mm),
+        mean_mm_(circle.mean_mm),
+        radius_known_(radius_known) {}
 
   /// Deviations at the places of `trace()` of readings at the same angles, little changed, about
   /// the same centre and mean.

@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "form/exchange.hpp"
+#include "form/sampling.hpp"
+#include "form/section_trace.hpp"
 #include "form/stream_checks.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/error.hpp"
@@ -19,6 +21,8 @@ namespace {
 constexpr double between_sections_mm = 0.01;     // Z of one section has no larger step
 constexpr double thickest_of_sections_mm = 0.1;  // a helix runs on
 constexpr double least_of_a_section = 8.0;
+constexpr std::size_t fewest_sections = 4;  // of a surface
+constexpr int carries_a_standard = 15;      // UPR: of a section by itself
 
 double spindle_distance(const ProbeStream& stream, const FormOptions& options, std::size_t i) {
   const double ball_mm =
@@ -88,6 +92,10 @@ std::vector<std::vector<std::size_t>> by_turns(const ProbeStream& stream) {
   return turns;
 }
 
+bool has_radius(const ProbeStream& stream) {
+  return stream.indication == Indication::absolute || stream.nominal_radius_mm.has_value();
+}
+
 SectionReadings readings_of(const ProbeStream& stream, const FormOptions& options,
                             const std::vector<std::size_t>& which) {
   SectionReadings section;
@@ -148,11 +156,42 @@ void take_off_slope(const ProbeStream& stream, const std::vector<std::vector<std
 
 }  // namespace
 
+SurfaceReadings surface_readings(const ProbeStream& stream, const FormOptions& options) {
+  expect_sections(stream);
+  SurfaceReadings out;
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    out.angle_rad.push_back(angle_of(stream, i));
+    out.distance_mm.push_back(part_distance(stream, options, i));
+  }
+  out.z_mm = stream.position_mm;
+  out.radius_known = has_radius(stream);
+  const auto sections = by_position(stream);
+  out.turns = static_cast<double>((sections.empty() ? by_turns(stream) : sections).size());
+  return out;
+}
+
+UprOfSurface upr_of_surface(const ProbeStream& stream, const FormOptions& options) {
+  expect_sections(stream);
+  if (options.each_turn_by_itself) return {};
+  const auto sections = by_position(stream);
+  if (!sections.empty()) {
+    if (sections.size() < fewest_sections) return {};
+    for (const auto& which : sections) {
+      const SectionTrace one(readings_of(stream, options, which), true, options.high_upr);
+      if (!one.trouble().empty() || highest_order(one.trace()) >= carries_a_standard) return {};
+    }
+  }
+  const SurfaceReadings all = surface_readings(stream, options);
+  if (all.turns < 2.0) return {};
+  const Trace together = sorted_trace(all.angle_rad, all.distance_mm, two_pi);
+  return {std::min(highest_order(together, false), highest_of_surface),
+          std::min(highest_order(together), highest_of_surface)};
+}
+
 Sections sections_of(const ProbeStream& stream, const FormOptions& options) {
   expect_sections(stream);
   Sections sections;
-  sections.radius_known =
-      stream.indication == Indication::absolute || stream.nominal_radius_mm.has_value();
+  sections.radius_known = has_radius(stream);
   auto groups = by_position(stream);
   const bool helix = groups.empty();
   if (helix) groups = by_turns(stream);

@@ -17,14 +17,36 @@ struct SectionReadings {
   std::size_t size() const { return angle_rad.size(); }
 };
 
-/// A lateral stream cut into sections: where Z stands still, each Z is one; a helix is cut into
-/// turns, and what the associated cone does along Z within a turn is taken off (Eq. 268).
+/// A lateral stream cut into sections: where Z stands still, each Z is one; a helix that is no
+/// surface, for a cut-off above 50 UPR, is cut into turns, and what the associated cone does along
+/// Z within a turn is taken off (Eq. 268).
 struct Sections {
   std::vector<SectionReadings> list;
   bool radius_known = true;  ///< false: a gauge without a nominal radius; Eq. 265 is then a limaçon
   double pitch_mm = 0.0;     ///< of a helix
   std::vector<std::string> notes;
 };
+
+/// All readings of a part that is one surface: of a helix, or of sections whose angles differ.
+struct SurfaceReadings {
+  std::vector<double> angle_rad, distance_mm, z_mm;
+  double turns = 1.0;  ///< or sections
+  bool radius_known = true;
+  std::size_t size() const { return angle_rad.size(); }
+};
+
+/// The highest cut-off that a surface is estimated for.
+inline constexpr int highest_of_surface = 50;
+
+/// The highest cut-off (UPR) that the angles of all readings of a surface carry together,
+/// `highest_of_surface` at most. 0: the stream is no surface but sections, each by itself: fewer
+/// than 4, or such that carry a standard cut-off (15 UPR) alone.
+struct UprOfSurface {
+  int by_steps = 0;     ///< 7 readings a wave
+  int by_gaps_too = 0;  ///< and no gap of more than half a wave
+};
+UprOfSurface upr_of_surface(const ProbeStream& stream, const FormOptions& options);
+SurfaceReadings surface_readings(const ProbeStream& stream, const FormOptions& options);
 
 /// @throws InputError with all that is no measurement of sections: a face, several set-ups or
 ///         sensors, numbers that are not finite, angles of another unit, fewer than 4 readings

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "form/low_pass.hpp"
+#include "form/sampling.hpp"
 #include "math/linear_algebra.hpp"
 #include "trueaxis/units.hpp"
 
@@ -21,21 +21,6 @@ constexpr double taken = 0.05;      // share of an amplitude
 constexpr double by_chance = 1e-4;  // of an order that is not there
 constexpr std::array<std::string_view, 8> resting_on_lobes{
     "RONt", "RONp", "RONv", "RONq", "CYLt", "CONt", "runout_circular", "runout_total"};
-
-double transmission(const FormOptions& options, int order, double step_rad) {
-  const double cutoff = two_pi / options.high_upr, wave = two_pi / order;
-  switch (options.filter) {
-    case ProfileFilter::gaussian:
-      return gaussian_transmission(cutoff, wave);
-    case ProfileFilter::robust_gaussian:
-      return robust_transmission(cutoff, wave);
-    case ProfileFilter::spline:
-      return spline_transmission(cutoff, wave, step_rad);
-    case ProfileFilter::none:
-      break;
-  }
-  return 1.0;
-}
 
 /// An order of every section: a line along Z of its coefficients, by weighted least squares.
 class OrderAlongZ {
@@ -86,17 +71,20 @@ class OrderAlongZ {
 
 }  // namespace
 
+bool is_swallowed(const FormOptions& options, double passed) {
+  return options.filter != ProfileFilter::none && options.high_upr < least_standard_upr &&
+         1.0 - passed > taken;
+}
+
 std::vector<SwallowedLobes> swallowed_lobes(const std::vector<SectionModel>& sections,
                                             const FormOptions& options) {
   std::vector<SwallowedLobes> out;
-  if (sections.empty() || options.filter == ProfileFilter::none ||
-      options.high_upr >= least_standard_upr)
-    return out;
+  if (sections.empty()) return out;
   const double step_rad = two_pi / static_cast<double>(sections.front().raw().size());
   for (const Order& one : sections.front().orders()) {
     if (one.order < 2) continue;
-    const double passed = transmission(options, one.order, step_rad);
-    if (1.0 - passed <= taken) continue;
+    const double passed = passed_by_low_pass(options, one.order, step_rad);
+    if (!is_swallowed(options, passed)) continue;
     const OrderAlongZ order(sections, one.order);
     if (order.is_there()) out.push_back({one.order, order.amplitude_mm, order.u_mm, passed});
   }
@@ -115,6 +103,10 @@ void withhold_swallowed(FormResult& result) {
     for (FormValue& one : values) {
       if (std::ranges::find(resting_on_lobes, one.name) == resting_on_lobes.end()) continue;
       Estimate& e = one.estimate;
+      if (one.unresolved) {
+        e.interval->back() += lost_mm;
+        continue;
+      }
       const double U_mm = k * e.u + lost_mm;
       e = {.unit = e.unit,
            .why_not = why,

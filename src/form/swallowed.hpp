@@ -12,6 +12,10 @@ namespace trueaxis::form {
 std::vector<SwallowedLobes> swallowed_lobes(const std::vector<SectionModel>& sections,
                                             const FormOptions& options);
 
+/// Whether a cut-off that lets so much of an order through is one that a found order speaks
+/// against.
+bool is_swallowed(const FormOptions& options, double passed);
+
 /// Takes the values out that rest on what was swallowed, and leaves their bounds.
 void withhold_swallowed(FormResult& result);
 

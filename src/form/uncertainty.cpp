@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/threads.hpp"
+#include "form/sampling.hpp"
 #include "math/statistics.hpp"
 
 namespace trueaxis::form {
@@ -18,6 +19,7 @@ using Engine = boost::random::mt19937_64;
 constexpr int first_unknown = 2, last_unknown = 10;
 /// What the highest of a profile of noise stands out by, over its standard deviation.
 constexpr double largest_of_noise = 5.0;
+constexpr double nothing_mm = 1e-9, confidence_of_bound = 0.95;
 
 double sum_of_squares(std::span<const double> values) {
   double sum = 0.0;
@@ -37,9 +39,19 @@ class Disturbance {
 
   /// The same motion in every section, noise of each reading its own.
   std::vector<double> of(const SectionModel& section) {
-    std::vector<double> out = motion_at(section.raw().at);
+    std::vector<double> out = motion_at(section.raw().at, motion_);
     for (double& one : out) one += section.noise_mm() * normal_(engine_);
     return out;
+  }
+
+  /// The motion alone, through the pass band.
+  std::vector<double> motion(const SectionModel& section, const FormOptions& options) const {
+    std::vector<SpindleOrder> passed = motion_;
+    for (SpindleOrder& one : passed) {
+      one.cos_mm *= passed_by_band(options, one.order);
+      one.sin_mm *= passed_by_band(options, one.order);
+    }
+    return motion_at(section.raw().at, passed);
   }
 
  private:
@@ -49,19 +61,18 @@ class Disturbance {
       motion_.push_back({n, normal_(engine_) / n, normal_(engine_) / n});
     std::vector<double> angles;
     for (int k = 0; k < 360; ++k) angles.push_back(k * rad_per_deg);
-    std::vector<SpindleOrder> drawn(motion_.begin() + static_cast<std::ptrdiff_t>(known),
-                                    motion_.end());
-    std::swap(drawn, motion_);
-    const double scale = range_mm / range_of(motion_at(angles)).length();
-    std::swap(drawn, motion_);
+    const std::vector<SpindleOrder> drawn(motion_.begin() + static_cast<std::ptrdiff_t>(known),
+                                          motion_.end());
+    const double scale = range_mm / range_of(motion_at(angles, drawn)).length();
     for (std::size_t i = known; i < motion_.size(); ++i) {
       motion_[i].cos_mm *= scale;
       motion_[i].sin_mm *= scale;
     }
   }
-  std::vector<double> motion_at(std::span<const double> angle_rad) const {
+  static std::vector<double> motion_at(std::span<const double> angle_rad,
+                                       std::span<const SpindleOrder> orders) {
     std::vector<double> out(angle_rad.size(), 0.0);
-    for (const SpindleOrder& one : motion_)
+    for (const SpindleOrder& one : orders)
       for (std::size_t i = 0; i < out.size(); ++i)
         out[i] += one.cos_mm * std::cos(one.order * angle_rad[i]) +
                   one.sin_mm * std::sin(one.order * angle_rad[i]);
@@ -72,6 +83,16 @@ class Disturbance {
   boost::random::normal_distribution<double> normal_;
   std::vector<SpindleOrder> motion_;
 };
+
+/// 0: there are none.
+double bound_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto rank =
+      static_cast<std::size_t>(confidence_of_bound * static_cast<double>(values.size()));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
 
 /// By how much the filter lowers the variance of noise, from one draw of it.
 double noise_passed(const SectionModel& section) {
@@ -113,16 +134,21 @@ std::vector<double> less_noise(const SectionModel& section) {
   return profile;
 }
 
-std::vector<std::vector<double>> less_noise(const std::vector<SectionModel>& sections) {
+std::vector<std::vector<double>> less_noise(const PartModel& part) {
   std::vector<std::vector<double>> out;
-  for (const SectionModel& section : sections) out.push_back(less_noise(section));
+  for (const SectionModel& section : part.sections)
+    out.push_back(part.surface ? section.profile_mm() : less_noise(section));
   return out;
 }
 
-void disturb(const std::vector<SectionModel>& sections, Disturbance& disturbance,
-             std::vector<std::vector<double>>& profiles) {
-  for (std::size_t s = 0; s < sections.size(); ++s) {
-    const std::vector<double> added = sections[s].filtered(disturbance.of(sections[s]));
+/// Profiles of a trial: those of `base` with noise, or a draw of the surface.
+void disturb(const PartModel& part, std::size_t trial, const FormOptions& options,
+             Disturbance& disturbance, std::vector<std::vector<double>>& profiles) {
+  if (part.surface) profiles = part.surface->profiles(trial);
+  for (std::size_t s = 0; s < part.sections.size(); ++s) {
+    const SectionModel& section = part.sections[s];
+    const std::vector<double> added = part.surface ? disturbance.motion(section, options)
+                                                   : section.filtered(disturbance.of(section));
     for (std::size_t i = 0; i < added.size(); ++i) profiles[s][i] += added[i];
   }
 }
@@ -176,32 +202,36 @@ std::vector<double> touched_by_ball(const Trace& trace, std::span<const double> 
   return out;
 }
 
-std::vector<Spread> spreads(const std::vector<SectionModel>& part,
-                            const std::vector<SectionModel>& datum, const FormOptions& options,
-                            const Assess& assess) {
+std::vector<Spread> spreads(const PartModel& part, const PartModel& datum,
+                            const FormOptions& options, const Assess& assess) {
   const Profiles base{less_noise(part), less_noise(datum)};
   const std::vector<NamedValue> values = assess(base);
-  const auto trials = static_cast<std::size_t>(options.trials);
+  auto trials = static_cast<std::size_t>(options.trials);
+  for (const PartModel* one : {&part, &datum})
+    if (one->surface) trials = one->surface->draws();
   std::vector<std::vector<double>> drawn(trials);
   for_each_index(trials, options.threads, [&](std::size_t trial) {
     Engine engine(options.seed + 0x9E3779B97F4A7C15ULL * (trial + 1));
     Disturbance disturbance(engine, options);
     Profiles profiles = base;
-    disturb(part, disturbance, profiles.part_mm);
-    disturb(datum, disturbance, profiles.datum_mm);
+    disturb(part, trial, options, disturbance, profiles.part_mm);
+    disturb(datum, trial, options, disturbance, profiles.datum_mm);
     for (const NamedValue& one : assess(profiles)) drawn[trial].push_back(one.value);
   });
-  const std::vector<double> ball = by_ball(part, datum, options, assess, values.size());
+  const std::vector<double> ball =
+      by_ball(part.sections, datum.sections, options, assess, values.size());
   std::vector<Spread> out;
   for (std::size_t v = 0; v < values.size(); ++v) {
     double sum = 0.0, squares = ball[v] * ball[v] / 3.0 * static_cast<double>(trials);
+    std::vector<double> there;
     for (const auto& trial : drawn) {
+      if (trial[v] > nothing_mm) there.push_back(trial[v]);
       const double off = trial[v] - values[v].value;
       sum += off;
       squares += off * off;
     }
     const double n = static_cast<double>(trials);
-    out.push_back({std::sqrt(squares / n), sum / n});
+    out.push_back({std::sqrt(squares / n), sum / n, bound_of(std::move(there))});
   }
   return out;
 }

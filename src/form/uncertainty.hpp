@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "form/section_model.hpp"
+#include "form/part_model.hpp"
 
 namespace trueaxis::form {
 
@@ -18,15 +18,16 @@ using Assess = std::function<std::vector<NamedValue>(const Profiles& profiles)>;
 /// Root mean square of what the trials of a Monte Carlo (JCGM 101) are off, and its mean.
 struct Spread {
   double u, bias;
+  double bound = 0.0;  ///< 95 % of the trials in which it is not 0 are below
 };
 
 /// Of every value that `assess` gives, by readings with noise, with what a spindle's motion is
 /// uncertain by, and with what the ball may hide. The profile that noise is added to is the
-/// measured one, less the part of its variance that is noise already (Eqs. 271, 272).
+/// measured one, less the part of its variance that is noise already (Eqs. 271, 272). The trials of
+/// a surface are its draws.
 /// The same numbers on any number of threads.
-std::vector<Spread> spreads(const std::vector<SectionModel>& part,
-                            const std::vector<SectionModel>& datum, const FormOptions& options,
-                            const Assess& assess);
+std::vector<Spread> spreads(const PartModel& part, const PartModel& datum,
+                            const FormOptions& options, const Assess& assess);
 
 /// What a ball has touched where its centre runs along a trace: the trace eroded by the ball's
 /// parabola. Eq. 269. @param radius_mm of the section, @param ball_mm of the ball

@@ -24,7 +24,7 @@ std::vector<std::vector<double>> profiles_of(const std::vector<SectionModel>& se
 }  // namespace
 
 WholeModel::WholeModel(const std::vector<SectionModel>& sections,
-                       std::span<const Criterion> criteria)
+                       std::span<const Criterion> criteria, bool in_space)
     : sections_(sections) {
   expects(sections.size() >= 2, "two sections at least");
   double low = 1e300, high = -1e300;
@@ -48,8 +48,9 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections,
           near_.try_emplace({criterion, of_cone}, Exchange(now.rows, criterion));
       if (!made) continue;
       at->second(now.y);
-      measured_[{criterion, of_cone}] =
-          of_cone ? cone(profiles, criterion) : cylinder(profiles, criterion);
+      measured_[{criterion, of_cone}] = !in_space ? fitted_near(now.y, criterion, of_cone)
+                                        : of_cone ? cone(profiles, criterion)
+                                                  : cylinder(profiles, criterion);
     }
   }
 }
@@ -248,8 +249,9 @@ std::vector<NamedValue> WholeModel::values_of(
                        const char* unit = "mm") {
     values.push_back({"cylindricity", name, std::move(reference), value, unit});
   };
-  for (const Criterion criterion : form_criteria) {
-    const Fitted& fit = fits.at({criterion, false});
+  for (const auto& [which, fit] : fits) {
+    const auto& [criterion, of_cone] = which;
+    if (of_cone) continue;
     const auto [low, high] = range_of(fit.off_mm);
     double squares = 0.0;
     for (const double off : fit.off_mm) squares += off * off;

@@ -18,7 +18,9 @@ class WholeModel {
  public:
   /// @param sections of known radius, from two on; they outlive this
   /// @param criteria of the cylinders that are asked for
-  WholeModel(const std::vector<SectionModel>& sections, std::span<const Criterion> criteria);
+  /// @param in_space by associate(), else by Eq. 273 about the line of least squares
+  WholeModel(const std::vector<SectionModel>& sections, std::span<const Criterion> criteria,
+             bool in_space);
 
   /// The axis of the cylinder by a criterion: of the measured profiles, and of some near these.
   AxisLine axis(Criterion criterion) const { return measured_.at({criterion, false}).axis; }

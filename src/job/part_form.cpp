@@ -90,6 +90,7 @@ void assess(Question& question, const FormTask& task, PartForm& out) {
   const ProbeStream& stream = question.part().stream();
   FormOptions& options = question.options();
   options.filter = task.filter;
+  options.all_references = false;
   if (!task.judges()) options.trials = std::min(options.trials, trials_that_show);
   if (stream.kind == StreamKind::lateral) {
     out.carried_upr = carried_upr(stream, options);

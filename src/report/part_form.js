@@ -30,7 +30,8 @@ function formCasesWords({motion, open}, diagnosed) {
 function formPolar(form) {
   const {worst} = form, place = isNumber(worst.z_mm) ? `Z = ${millimetres(worst.z_mm, 2)}` : 'the section';
   const kept = (um) => worst.c_deg.map((c, i) => [um[i], c]);
-  const parts = [{name: 'readings', um: worst.raw_um, colour: colours.grey, width: 1, dots: true}, {name: form.filter, um: worst.um, colour: colours.measured, width: 1.8}];
+  const all = form.surface_readings;
+  const parts = [{name: all ? 'before the filter' : 'readings', um: worst.raw_um, colour: colours.grey, width: 1, dots: true}, {name: form.filter, um: worst.um, colour: colours.measured, width: 1.8}];
   if (worst.outer_um) parts.push({name: 'minimum zone', um: worst.outer_um, colour: colours.model, width: 1, dashed: true}, {name: 'minimum zone', um: worst.inner_um, colour: colours.model, width: 1, dashed: true});
   const most = largest(parts.flatMap(({um}) => um)), step = roundUp(most / 3), out = step * Math.max(1, Math.ceil(most * 1.02 / step)), base = 1.5 * out;
   const closed = (values) => [...values, [values[0][0], values[0][1] + 360]];
@@ -45,7 +46,8 @@ function formPolar(form) {
     radiusAxis: {min: step * -Math.floor(base / step), max: out, interval: step, axisLine: {show: false}, axisTick: {show: false}, axisLabel: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
     series,
   });
-  return figure({caption: `The section with the largest RONt, at ${place}: ${worst.readings} readings about the least-squares circle, filtered, between the two circles of the minimum zone. ${tick(step)} µm a ring.`,
+  const what = all ? `The surface of all ${all} readings where its RONt is largest, at ${place}: the profile` : `The section with the largest RONt, at ${place}: ${worst.readings} readings`;
+  return figure({caption: `${what} about the least-squares circle, filtered, between the two circles of the minimum zone. ${tick(step)} µm a ring.`,
     description: `Roundness plot at ${place}, up to ${micrometres(most / 1000)} from the least-squares circle.`, size: 'polar', renderer: 'svg', build});
 }
 
@@ -72,11 +74,11 @@ function partFormBlock(form, diagnosed = true) {
     form.values.map((row) => [formNames[row.name] ?? row.name, formReferences[row.reference] ?? '–', ...row.cases.map((one) => formCell(one, k))]), 2, true));
   if (!form.worst) return block('Form of the part', ...parts);
   parts.push(element('div', {class: 'pair'}, [formPolar(form), formHarmonics(form)].filter(Boolean)));
-  parts.push(table(`This section about each circle ± U, ${form.filter}`, ['Value', 'least squares (LSCI)', 'minimum zone (MZCI)', 'circumscribed (MCCI)', 'inscribed (MICI)'],
+  parts.push(table(`This section about each circle ± U, ${form.filter}`, ['Value', 'least squares (LSCI)', 'minimum zone (MZCI)'],
     form.worst.values.map((row) => [row.name, ...row.about.map((one) => formCell(one, k))])));
   if (form.section_count > 1) {
     const more = form.section_count > form.sections.length ? `, the ${form.sections.length} largest of ${form.section_count}` : '';
-    parts.push(table(`RONt of each section about the minimum zone circle${more}`, ['Z', ...heads, 'Lobes'],
+    parts.push(table(`RONt of each ${form.surface_readings ? 'station of the surface' : 'section'} about the minimum zone circle${more}`, ['Z', ...heads, 'Lobes'],
       form.sections.map((row) => [isNumber(row.z_mm) ? millimetres(row.z_mm, 2) : '–', ...row.cases.map((one) => formCell(one, k)), row.lobes ? String(row.lobes) : '–']), 1, true));
   }
   if (form.notes.length) parts.push(element('ul', {class: 'quiet'}, form.notes.map((text) => element('li', {}, joined(sentence(text))))));

@@ -135,7 +135,7 @@ Json worst_data(const FormResult& form) {
                                 {"phase_deg", rounded(one.phase_rad / rad_per_deg, 1)}});
   for (const char* name : {"RONt", "RONp", "RONv", "RONq"}) {
     Json row{{"name", name}, {"about", Json::array()}};
-    for (const char* circle : {"LSCI", "MZCI", "MCCI", "MICI"})
+    for (const char* circle : {"LSCI", "MZCI"})
       row["about"].push_back(estimate_data(of(section, name, circle)));
     data["values"].push_back(std::move(row));
   }
@@ -157,6 +157,8 @@ Json part_form_data(const PartForm& form) {
   data["filter"] = filtered ? filter_words(form.probed.options) : "not filtered";
   data["carried_upr"] = form.carried_upr;
   data["high_upr"] = form.probed.options.high_upr;
+  data["surface_readings"] =
+      form.probed.surface ? Json(form.probed.surface->readings) : Json(nullptr);
   data["section_count"] = form.probed.sections.size();
   data["motion"] = form.motion;
   data["open"] = form.open;

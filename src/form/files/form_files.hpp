@@ -15,6 +15,12 @@ std::string form_json(const FormResult& result);
 /// Lobes that the cut-off takes part of, with what it lets through.
 Json swallowed_json(const FormResult& result);
 
+/// Of a surface that was estimated as one: readings, orders, noise.
+Json surface_json(const FormSurface& surface);
+
+/// "2.1 ± 0.3 µm", or "below 4.1 µm (95 % confidence)". @param scale from inside to the unit
+std::string form_value_text(const FormValue& one, double k, double scale, const std::string& unit);
+
 /// The profiles of all sections, before and behind the filter: `trueaxis.form_profile/1`.
 std::string form_profile_csv(const FormResult& result);
 

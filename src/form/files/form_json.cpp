@@ -20,6 +20,7 @@ Json value_json(const FormValue& one) {
     json["why"] = edge.why_not;
     json["at_most"] = number(edge.interval->back());
   }
+  if (one.unresolved) json["unresolved"] = true;
   return json;
 }
 
@@ -83,6 +84,15 @@ Json swallowed_json(const FormResult& result) {
   });
 }
 
+Json surface_json(const FormSurface& surface) {
+  return {{"readings", surface.readings},
+          {"turns", number(surface.turns)},
+          {"orders", surface.orders},
+          {"degrees_along_z", surface.degrees},
+          {"noise", with_unit(surface.noise_mm, "mm")},
+          {"orders_found", surface.orders_found}};
+}
+
 std::string form_json(const FormResult& result) {
   Json json{{"schema", "trueaxis.form/1"}, {"version", TRUEAXIS_VERSION}};
   json["input"] = {{"file", result.source}, {"hash", result.input_hash}};
@@ -100,14 +110,17 @@ std::string form_json(const FormResult& result) {
     return section_json(section, !result.radius_known);
   });
   json["swallowed"] = swallowed_json(result);
+  if (result.surface) json["surface"] = surface_json(*result.surface);
   json["notes"] = result.notes;
   return json_text(json);
 }
 
 std::string form_profile_csv(const FormResult& result) {
-  std::string text =
-      "# schema: trueaxis.form_profile/1\n# of each section about its least-squares circle: the "
-      "readings, and what the filter lets through\nsection,Z[mm],C[deg],raw[um],filtered[um]\n";
+  std::string text = "# schema: trueaxis.form_profile/1\n# of each ";
+  text += result.surface
+              ? "station of the surface about its least-squares circle: before the filter"
+              : "section about its least-squares circle: the readings";
+  text += ", and what the filter lets through\nsection,Z[mm],C[deg],raw[um],filtered[um]\n";
   for (std::size_t s = 0; s < result.sections.size(); ++s) {
     const SectionForm& section = result.sections[s];
     for (std::size_t i = 0; i < section.profile.angle_rad.size(); ++i)

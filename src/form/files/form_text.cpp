@@ -27,11 +27,12 @@ const FormValue* find(std::span<const FormValue> values, std::string_view name,
 /// In µm; slopes in µm a degree, angles in mrad.
 std::string cell(const FormValue* one, double k) {
   if (!one) return "";
-  if (std::abs(one->estimate.value) < nothing_mm && one->estimate.u < nothing_mm) return "0";
+  if (size_of(*one) < nothing_mm && (one->unresolved || one->estimate.u < nothing_mm)) return "0";
   const bool slope = one->estimate.unit == "mm/rad";
   const double scale = slope ? rad_per_deg / mm_per_um : 1e3;
   if (one->estimate.determined() && scale * k * one->estimate.u < least_shown)
     return fmt::format("{:.4f} ± < {:g}", scale * one->estimate.value, least_shown);
+  if (one->unresolved) return fmt::format("< {:.2g}", scale * one->estimate.interval->back());
   return layout::plus_minus(one->estimate, k, scale, "");
 }
 
@@ -53,6 +54,12 @@ std::string heading(const FormResult& result) {
   if (result.sections.empty())
     return fmt::format("Values in µm ± U (k = {:g}), no filter\n", result.options.coverage_factor);
   const SectionForm& first = result.sections.front();
+  if (result.surface)
+    return fmt::format(
+        "{}, one surface of {} readings at {} stations; values in µm ± U (k = {:g}), < a "
+        "bound (95 %)\n",
+        filter_text(result.options), result.surface->readings, result.sections.size(),
+        result.options.coverage_factor);
   std::string text =
       fmt::format("{}, {} section{} of {} readings", filter_text(result.options),
                   result.sections.size(), result.sections.size() == 1 ? "" : "s", first.readings);
@@ -137,8 +144,8 @@ std::string section_rows(const FormResult& result, bool all) {
                  ? fmt::format("{} ({:.0f} %)\n", section->lobes, 100.0 * section->lobes_share)
                  : "none\n");
   if (shown.size() < result.sections.size())
-    text += fmt::format("the {} least round of {} sections; --verbose prints all\n", shown.size(),
-                        result.sections.size());
+    text += fmt::format("the {} least round of {} {}; --verbose prints all\n", shown.size(),
+                        result.sections.size(), result.surface ? "stations" : "sections");
   return text;
 }
 
@@ -188,6 +195,12 @@ std::string harmonics_table(const FormResult& result) {
 }
 
 }  // namespace
+
+std::string form_value_text(const FormValue& one, double k, double scale, const std::string& unit) {
+  if (!one.unresolved) return layout::plus_minus(one.estimate, k, scale, unit);
+  return fmt::format("below {:.2g} {} (95 % confidence)", scale * one.estimate.interval->back(),
+                     unit);
+}
 
 std::string swallowed_words(const FormResult& result) {
   std::string text;

@@ -24,6 +24,7 @@ Json value_object(const FormValue& one) {
     json["why"] = edge.why_not;
     json["at_most"] = number(edge.interval->back());
   }
+  if (one.unresolved) json["unresolved"] = true;
   return json;
 }
 
@@ -93,6 +94,7 @@ Json part_form_object(const PartForm& form) {
     json["coverage_factor"] = options.coverage_factor;
     json["datum"] = form.probed.datum_source.empty() ? spindle_axis : form.probed.datum_source;
     json["swallowed"] = swallowed_json(form.probed);
+    if (form.probed.surface) json["surface"] = surface_json(*form.probed.surface);
     json["left_out"] = form.left_out;
     json["as_probed"] = case_object(form.probed);
     json["motion"] = form.motion;

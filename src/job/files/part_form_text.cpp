@@ -12,8 +12,6 @@
 namespace trueaxis {
 namespace {
 
-using layout::plus_minus;
-
 /// What a screen shows of the whole: its name and what it is about.
 constexpr std::array<const char*, 2> shown[] = {
     {"RONt", "MZCI"}, {"CYLt", "MZCY"}, {"CONt", "MZCO"}, {"FLTt", "MZPL"}};
@@ -27,7 +25,7 @@ bool counts(const FormResult& form, std::string_view name) {
 }
 
 std::string value_text(const FormValue& one, double k) {
-  return plus_minus(one.estimate, k, 1.0 / mm_per_um, "µm");
+  return form_value_text(one, k, 1.0 / mm_per_um, "µm");
 }
 
 std::string values_text(const FormResult& form) {
@@ -58,6 +56,13 @@ std::string band_words(const PartForm& form) {
   return filter_words(form.probed.options);
 }
 
+/// "worst of 40 sections"
+std::string place_words(const FormResult& form) {
+  if (form.surface) return fmt::format("one surface of {} readings", form.surface->readings);
+  return fmt::format("worst of {} section{}", form.sections.size(),
+                     form.sections.size() == 1 ? "" : "s");
+}
+
 }  // namespace
 
 bool is_tapered(const FormResult& form) {
@@ -78,9 +83,8 @@ std::string judgement_text(const PartForm& form, const FormJudgement& one) {
   const std::string tolerance = fmt::format("tolerance {:g} µm", one.tolerance_mm / mm_per_um);
   if (one.conformity == Conformity::not_judged) return head + one.why + "; " + tolerance;
   std::string value = value_text(one.high, k);
-  if (one.low.estimate.value != one.high.estimate.value)
-    value = fmt::format("{} or {}, as what was seen is not or is of the part",
-                        value_text(one.low, k), value);
+  if (const std::string low = value_text(one.low, k); low != value)
+    value = fmt::format("{} or {}, as what was seen is not or is of the part", low, value);
   const std::string place = one.z_mm ? fmt::format(" at Z {:.4g} mm", hundredths(*one.z_mm)) : "";
   return fmt::format("{}{}{}, {} ({})", head, value, place, tolerance, band_words(form));
 }
@@ -116,9 +120,8 @@ std::string part_form_text(const PartForm& form) {
   const auto line = [&](const std::string& one) { text += layout::wrapped("form        ", one); };
   if (!form.why_not.empty()) line("not assessed: " + form.why_not);
   if (form.why_not.empty()) {
-    line(fmt::format("as probed {} ({}; worst of {} section{})", values_text(form.probed),
-                     band_words(form), form.probed.sections.size(),
-                     form.probed.sections.size() == 1 ? "" : "s"));
+    line(fmt::format("as probed {} ({}; {})", values_text(form.probed), band_words(form),
+                     place_words(form.probed)));
     if (form.less_motion)
       line(
           fmt::format("less {}: {}", fmt::join(form.motion, ", "), values_text(*form.less_motion)));

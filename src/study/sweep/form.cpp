@@ -50,6 +50,7 @@ TurnForm form_of_middle_turn(const ProbeStream& stream, const std::array<double,
   options.low_upr = band_upr[0], options.high_upr = band_upr[1];
   options.bore = bore;
   options.trials = trials;
+  options.each_turn_by_itself = true;
   options.threads = 1;
   const FormResult form = assess_form(middle_turns(stream), options);
   const SectionForm& section = form.sections[form.sections.size() / 2];

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "form/axis_line.hpp"
+#include "form/section_model.hpp"
+#include "form/sections.hpp"
+#include "form/surface_chain.hpp"
+
+namespace trueaxis::form {
+
+/// A surface of revolution with its form, by all readings together: what they show of it as draws
+/// (`surface_chain.hpp`), read off at angles of stations along Z. Eqs. 317-321.
+class SurfaceModel {
+ public:
+  SurfaceModel(const SurfaceReadings& readings, const FormOptions& options);
+
+  /// The surface of the mean at each station, which is all but its uncertainty.
+  std::vector<SectionModel> sections() const;
+
+  std::size_t draws() const { return static_cast<std::size_t>(posterior_.coefficients.cols()); }
+  /// Filtered profiles of a draw at the places of `sections()`, with what is not known of
+  /// amplitudes that were taken off.
+  std::vector<std::vector<double>> profiles(std::size_t draw) const;
+
+  /// Terms of one u of each amplitude that was taken off the readings, and their correlation; every
+  /// draw is then off by some of them. Eq. 291.
+  void add_taken_off(std::span<const std::vector<double>> columns_mm,
+                     std::span<const double> correlation);
+
+  /// Orders of which the cut-off takes part and that are certainly there.
+  std::vector<SwallowedLobes> swallowed() const;
+  FormSurface form() const;
+
+ private:
+  struct Station {
+    double z_mm = 0.0, gaps_rad = 0.0;
+    Eigen::VectorXd along;           ///< f_d(t)
+    std::vector<std::size_t> place;  ///< of its angles in the grid
+    std::vector<Order> orders;       ///< before the filter
+    std::size_t readings = 0;        ///< that are nearer to it than to any other
+  };
+  void put_about_axis(const SurfaceReadings& readings);
+  void make_grid();
+  void add_station(double z_mm, std::span<const std::size_t> by_z);
+  void keep_coefficients();
+  void sample();
+  bool leave_out_far();
+  std::vector<double> kept_of(std::span<const double> column) const;
+  /// Amplitudes of cos and sin of an order where the degrees are f.
+  Eigen::Vector2d amplitudes(const Eigen::VectorXd& f, int order,
+                             const Eigen::Ref<const Eigen::VectorXd>& q) const;
+  std::vector<Order> orders_at(const Station& station) const;
+  /// @param filtered through the band, else as it is
+  std::vector<double> profile(const Station& station, const Eigen::Ref<const Eigen::VectorXd>& q,
+                              bool filtered) const;
+
+  FormOptions options_;
+  SurfaceTerms terms_;
+  double turns_ = 1.0, per_turn_ = 0.0, middle_mm_ = 0.0, half_mm_ = 1.0, radius_mm_ = 0.0;
+  bool radius_known_ = true;
+  AxisLine axis_;
+  std::vector<double> angle_rad_, t_, z_mm_, off_mm_;  ///< of the readings, about the axis
+  std::vector<std::size_t> kept_;                      ///< of them by a robust filter; empty: all
+  SurfacePosterior posterior_;
+  Eigen::VectorXd mean_, spread_;  ///< of the coefficients
+  double noise_mm_ = 0.0;
+  std::vector<double> cosine_, sine_;  ///< of the grid of angles
+  std::vector<double> band_;           ///< share of each order that the pass band lets through
+  std::vector<Station> stations_;
+  std::vector<Eigen::MatrixXd> taken_off_;  ///< columns for independent normal numbers
+};
+
+}  // namespace trueaxis::form

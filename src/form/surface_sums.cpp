@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/surface_sums.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "math/linear_algebra.hpp"
+
+namespace trueaxis::form {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr std::size_t block = 1024;  // readings
+constexpr double quarter = 0.5 * std::numbers::pi;
+
+/// Sums over readings of functions of t times exp(ikθ). Of degrees d the functions are c_j =
+/// cos(jφ), j ≤ 2d, t c_j, j ≤ d, t², and y c_j, y t, with φ = π (t + 1) / 2.
+class Sums {
+ public:
+  explicit Sums(const SurfaceTerms& terms)
+      : degrees_(terms.degrees),
+        orders_(2 * terms.orders),
+        sums_(MatrixXd::Zero(4 * terms.degrees + 5, 2 * orders_ + 2)) {}
+
+  void add(std::span<const double> angle_rad, std::span<const double> t,
+           std::span<const double> y_mm) {
+    const auto n = static_cast<Index>(angle_rad.size());
+    MatrixXd along(n, sums_.rows()), around(n, sums_.cols());
+    for (Index i = 0; i < n; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      fill_along(along, i, t[at], y_mm[at]);
+      around(i, 1) = std::cos(angle_rad[at]);
+      around(i, orders_ + 2) = std::sin(angle_rad[at]);
+    }
+    for (Index k = 0; k <= orders_; ++k)
+      for (Index i = 0; i < n; ++i)
+        fill_around(around, i, k, angle_rad[static_cast<std::size_t>(i)]);
+    sums_ += linear::transposed_product(along, around);
+  }
+
+  Complex cosine(Index j, Index k) const { return at(j, k); }
+  Complex t_cosine(Index j, Index k) const { return at(2 * degrees_ + 1 + j, k); }
+  Complex t_square(Index k) const { return at(3 * degrees_ + 2, k); }
+  Complex y_cosine(Index j, Index k) const { return at(3 * degrees_ + 3 + j, k); }
+  Complex y_t(Index k) const { return at(4 * degrees_ + 4, k); }
+
+ private:
+  Complex at(Index row, Index k) const { return {sums_(row, k), sums_(row, orders_ + 1 + k)}; }
+
+  void fill_along(MatrixXd& along, Index i, double t, double y) const {
+    const double c = std::cos(quarter * (t + 1.0));
+    double before = c, now = 1.0;
+    for (Index j = 0; j <= 2 * degrees_; ++j) {
+      along(i, j) = now;
+      if (j <= degrees_) {
+        along(i, 2 * degrees_ + 1 + j) = t * now;
+        along(i, 3 * degrees_ + 3 + j) = y * now;
+      }
+      const double next = 2.0 * c * now - before;
+      before = now;
+      now = next;
+    }
+    along(i, 3 * degrees_ + 2) = t * t;
+    along(i, 4 * degrees_ + 4) = y * t;
+  }
+
+  /// exp(ikθ) by the order before it; anew every 32 orders.
+  void fill_around(MatrixXd& around, Index i, Index k, double angle) const {
+    const Index im = orders_ + 1;
+    if (k % 32 == 0) {
+      around(i, k) = std::cos(static_cast<double>(k) * angle);
+      around(i, im + k) = std::sin(static_cast<double>(k) * angle);
+    } else if (k > 1) {
+      const double c = around(i, 1), s = around(i, im + 1);
+      const double a = around(i, k - 1), b = around(i, im + k - 1);
+      around(i, k) = a * c - b * s;
+      around(i, im + k) = a * s + b * c;
+    }
+  }
+
+  Index degrees_, orders_;
+  MatrixXd sums_;
+};
+
+double scale_of(int d) { return d == 0 ? 1.0 : d == 1 ? std::sqrt(3.0) : std::sqrt(2.0); }
+
+/// Σ f_d f_e exp(ikθ), e ≤ d.
+Complex product(const Sums& sums, int d, int e, Index k) {
+  const double scale = scale_of(d) * scale_of(e);
+  if (d == 1 && e == 1) return scale * sums.t_square(k);
+  if (d == 1) return scale * sums.t_cosine(0, k);
+  if (e == 1) return scale * sums.t_cosine(d, k);
+  return 0.5 * scale * (sums.cosine(d + e, k) + sums.cosine(d - e, k));
+}
+
+class NormalMatrix {
+ public:
+  NormalMatrix(const SurfaceTerms& terms, const Sums& sums)
+      : terms_(terms), out_(terms.size(), terms.size()) {
+    products_.resize(static_cast<std::size_t>(2 * terms.orders + 1));
+    for (int d = 0; d <= terms.degrees; ++d)
+      for (int e = 0; e <= d; ++e) {
+        for (std::size_t k = 0; k < products_.size(); ++k)
+          products_[k] = product(sums, d, e, static_cast<Index>(k));
+        for (int a = 0; a <= terms.orders && d <= terms.degrees_of(a); ++a)
+          for (int b = 0; b <= terms.orders && e <= terms.degrees_of(b); ++b) put(a, d, b, e);
+      }
+  }
+  MatrixXd take() { return std::move(out_); }
+
+ private:
+  void put(int a, int d, int b, int e) {
+    const Complex more = products_[static_cast<std::size_t>(a + b)];
+    Complex less = products_[static_cast<std::size_t>(std::abs(a - b))];
+    if (a < b) less = std::conj(less);
+    const Index i = terms_.column(a, d), j = terms_.column(b, e);
+    const auto set = [&](Index row, Index column, double value) {
+      out_(row, column) = value;
+      out_(column, row) = value;
+    };
+    set(i, j, 0.5 * (less.real() + more.real()));
+    if (b > 0) set(i, j + 1, 0.5 * (more.imag() - less.imag()));
+    if (a > 0) set(i + 1, j, 0.5 * (more.imag() + less.imag()));
+    if (a > 0 && b > 0) set(i + 1, j + 1, 0.5 * (less.real() - more.real()));
+  }
+
+  const SurfaceTerms& terms_;
+  MatrixXd out_;
+  std::vector<Complex> products_;
+};
+
+}  // namespace
+
+Eigen::VectorXd along(int degrees, double t) {
+  Eigen::VectorXd out(degrees + 1);
+  for (int d = 0; d <= degrees; ++d)
+    out[d] = scale_of(d) * (d == 1 ? t : std::cos(d * quarter * (t + 1.0)));
+  return out;
+}
+
+SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angle_rad,
+                         std::span<const double> t, std::span<const double> y_mm) {
+  Sums sums(terms);
+  SurfaceSums out;
+  out.count = y_mm.size();
+  for (std::size_t begin = 0; begin < y_mm.size(); begin += block) {
+    const std::size_t n = std::min(block, y_mm.size() - begin);
+    sums.add(angle_rad.subspan(begin, n), t.subspan(begin, n), y_mm.subspan(begin, n));
+  }
+  for (const double y : y_mm) out.squares += y * y;
+  out.normal = NormalMatrix(terms, sums).take();
+  out.right.resize(terms.size());
+  for (int n = 0; n <= terms.orders; ++n)
+    for (int d = 0; d <= terms.degrees_of(n); ++d) {
+      const Complex sum = scale_of(d) * (d == 1 ? sums.y_t(n) : sums.y_cosine(d, n));
+      out.right[terms.column(n, d)] = sum.real();
+      if (n > 0) out.right[terms.column(n, d) + 1] = sum.imag();
+    }
+  return out;
+}
+
+}  // namespace trueaxis::form

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace trueaxis::form {
+
+/// A surface over angle θ and length t in [−1, 1],
+/// h = Σ_n Σ_d f_d(t) (a_nd cos nθ + b_nd sin nθ), where f_0 = 1, f_1 = √3 t and, from d = 2 on,
+/// f_d = √2 cos(d π (t + 1) / 2): each of mean square 1, and none larger at an end than inside, as
+/// polynomials are. Eq. 317.
+struct SurfaceTerms {
+  int orders = 1, degrees = 1;
+  int last_order_of_all = 16;  ///< orders above have fewer degrees
+  int degrees_of_others = 3;
+
+  int degrees_of(int n) const {
+    return n <= last_order_of_all ? degrees : std::min(degrees, degrees_of_others);
+  }
+  static int width(int n) { return n == 0 ? 1 : 2; }  ///< cosine, sine
+  /// Column of order n and degree d; from n = 1 on of its cosine, which the sine follows.
+  Eigen::Index column(int n, int d) const {
+    if (n == 0) return d;
+    const int all = std::min(n - 1, last_order_of_all), others = n - 1 - all;
+    return (1 + degrees) * (1 + 2 * all) + 2 * (1 + degrees_of(last_order_of_all + 1)) * others +
+           2 * d;
+  }
+  Eigen::Index size() const { return column(orders + 1, 0); }
+};
+
+/// f_0(t) … f_degrees(t).
+Eigen::VectorXd along(int degrees, double t);
+
+/// AᵀA, Aᵀy and yᵀy of the columns of a surface over readings.
+struct SurfaceSums {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd right;
+  double squares = 0.0;
+  std::size_t count = 0;
+};
+
+/// A product of two columns is a sum of products of few functions of t with exp(ikθ), so that AᵀA
+/// takes N (3D + 4) (4M + 2) steps for its (2M + 1)² (D + 1)² entries. Eq. 318.
+SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angle_rad,
+                         std::span<const double> t, std::span<const double> y_mm);
+
+}  // namespace trueaxis::form

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/true_form.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trueaxis::form_study {
+namespace {
+
+constexpr int angles = 360, places = 31;
+constexpr double turn = 2.0 * std::numbers::pi;
+
+/// Convolution with exp(−π (θ / (α λ_c))²), normalised over the grid.
+std::vector<double> filtered(const std::vector<double>& profile, double high_upr) {
+  const double width = std::sqrt(std::numbers::ln2 / std::numbers::pi) * turn / high_upr;
+  std::vector<double> weight(angles), out(angles, 0.0);
+  double sum = 0.0;
+  for (int k = 0; k < angles; ++k) {
+    const double off = std::remainder(turn * k / angles, turn) / width;
+    weight[static_cast<std::size_t>(k)] = std::exp(-std::numbers::pi * off * off);
+    sum += weight[static_cast<std::size_t>(k)];
+  }
+  for (int i = 0; i < angles; ++i)
+    for (int k = 0; k < angles; ++k)
+      out[static_cast<std::size_t>(i)] += weight[static_cast<std::size_t>(k)] / sum *
+                                          profile[static_cast<std::size_t>((i + k) % angles)];
+  return out;
+}
+
+struct SoftEnd {
+  double value = 0.0;
+  Eigen::VectorXd slope;
+  Eigen::MatrixXd curvature;
+};
+
+/// ln Σ exp(s β y) / β of y = h − rows q, its derivatives by q.
+SoftEnd soft_end(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double beta, double side) {
+  const double largest = (side * y).maxCoeff();
+  Eigen::VectorXd share = (beta * (side * y.array() - largest)).exp();
+  const double sum = share.sum();
+  share /= sum;
+  const Eigen::VectorXd mean = rows.transpose() * share;
+  SoftEnd out{largest + std::log(sum) / beta, -side * mean, {}};
+  out.curvature = beta * (rows.transpose() * share.asDiagonal() * rows - mean * mean.transpose());
+  return out;
+}
+
+/// Least range of h − rows q.
+double least_range(const Eigen::MatrixXd& rows, const Eigen::VectorXd& h) {
+  Eigen::VectorXd q = rows.colPivHouseholderQr().solve((h.array() - h.mean()).matrix());
+  const auto range = [&](const Eigen::VectorXd& at) {
+    const Eigen::VectorXd y = h - rows * at;
+    return y.maxCoeff() - y.minCoeff();
+  };
+  const double first = range(q);
+  if (first < 1e-12) return first;
+  for (double beta = 10.0 / first; beta < 3e4 / first; beta *= 2.0)
+    for (int step = 0; step < 8; ++step) {
+      const Eigen::VectorXd y = h - rows * q;
+      const SoftEnd high = soft_end(rows, y, beta, 1.0), low = soft_end(rows, y, beta, -1.0);
+      Eigen::MatrixXd curvature = high.curvature + low.curvature;
+      curvature.diagonal().array() += 1e-6 * curvature.trace() + 1e-12;
+      const Eigen::VectorXd move = -curvature.ldlt().solve(high.slope + low.slope);
+      double length = 1.0;
+      const auto soft = [&](const Eigen::VectorXd& at) {
+        const Eigen::VectorXd z = h - rows * at;
+        return soft_end(rows, z, beta, 1.0).value + soft_end(rows, z, beta, -1.0).value;
+      };
+      const double now = high.value + low.value;
+      while (length > 1e-3 && soft(q + length * move) > now) length *= 0.5;
+      if (length <= 1e-3) break;
+      q += length * move;
+    }
+  return range(q);
+}
+
+}  // namespace
+
+TrueForm true_form(const Radius& radius, double length_mm, double high_upr) {
+  Eigen::MatrixXd circle(angles, 2), cylinder(angles * places, 4);
+  Eigen::VectorXd all(angles * places);
+  TrueForm out;
+  for (int p = 0; p < places; ++p) {
+    const double z = length_mm * p / (places - 1);
+    std::vector<double> profile;
+    for (int i = 0; i < angles; ++i) profile.push_back(radius(turn * i / angles, z));
+    profile = filtered(profile, high_upr);
+    for (int i = 0; i < angles; ++i) {
+      const double c = std::cos(turn * i / angles), s = std::sin(turn * i / angles);
+      circle.row(i) << c, s;
+      cylinder.row(p * angles + i) << c, s, c * (2.0 * z / length_mm - 1.0),
+          s * (2.0 * z / length_mm - 1.0);
+      all[p * angles + i] = profile[static_cast<std::size_t>(i)];
+    }
+    out.ront_mm = std::max(out.ront_mm, least_range(circle, all.segment(p * angles, angles)));
+  }
+  out.cylt_mm = least_range(cylinder, all);
+  return out;
+}
+
+}  // namespace trueaxis::form_study
