@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -101,6 +102,22 @@ struct AxisShare {
   Estimate axis_shift;  ///< mm; largest over Z, from the axis of the named model
 };
 
+/// A source of U of the axis.
+struct AxisLimit {
+  std::string effect;      ///< id of a cause that was not found; empty: noise, or see below
+  std::string instead_of;  ///< id of a finding: what else it may be
+  double share = 0.0;      ///< of u², by which that would be smaller without this source
+};
+
+/// Standard deviations by which what is seen is off what is stated: 1 of 1000 that are right is.
+constexpr double refuted_by = 3.29;
+
+/// A statement that the readings refute: what it is by them, the stated value included.
+struct RefutedStatement {
+  Influence stated;
+  Estimate seen;  ///< in the unit of the kind
+};
+
 /// What the model gets wrong.
 struct Diagnosis : Conclusion {
   FitResult baseline;  ///< the ideal surface
@@ -109,6 +126,8 @@ struct Diagnosis : Conclusion {
   /// and cut. Its u holds what the data cannot tell.
   FitResult extended;
   std::vector<AxisShare> shares;  ///< what moves the average from the named model, largest first
+  std::vector<AxisLimit> limits;  ///< what U comes from, the largest part first
+  std::vector<RefutedStatement> refuted;
   std::vector<Finding> findings;  ///< by axis_bias, the largest first
   std::vector<Unexplained> unexplained;
   std::vector<NotObservable> not_observable;
@@ -122,7 +141,10 @@ struct Diagnosis : Conclusion {
   std::vector<double> residual_before_mm, residual_after_mm;  ///< one per reading
   std::vector<SpectrumBin> spectrum;
 
-  std::span<const Effect> own_effects = {};  ///< as in the options; they outlive this
+  /// As in the options, which outlive this, or `entries`.
+  std::span<const Effect> own_effects = {};
+  /// Where something is stated: those of the options, and entries of the catalogue as it is stated.
+  std::shared_ptr<const std::vector<Effect>> entries = {};
 
   /// The entry of an id, of the catalogue or of one's own; nullptr: none has it.
   const Effect* entry(std::string_view id) const;
@@ -132,7 +154,8 @@ struct Diagnosis : Conclusion {
 };
 
 struct DiagnoseOptions {
-  FitOptions fit;
+  FitOptions fit;             ///< its influences: what is known, by whose values the readings are
+                              ///< corrected already
   double false_alarm = 0.01;  ///< per stream, over all hypotheses
   int max_findings = 8;       ///< beyond that the surface is the wrong one
   int threads = 0;            ///< 0: as many as there are; the result does not depend on it
@@ -144,5 +167,10 @@ struct DiagnoseOptions {
 /// @throws InputError as fit() does; ContractViolation where an effect of one's own has an id of
 /// the catalogue. Numerical outcomes are data: see extended.status.
 Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options);
+
+/// The stream less what the stated values of its influences do to it, about the surface that is
+/// fitted to what is left (delay and lag in all orders, the others in the first).
+/// @throws InputError as fit() does
+ProbeStream corrected_by_known(ProbeStream stream, const FitOptions& options);
 
 }  // namespace trueaxis

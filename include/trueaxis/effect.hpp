@@ -10,6 +10,7 @@
 
 #include "trueaxis/covariance.hpp"
 #include "trueaxis/effect_term.hpp"
+#include "trueaxis/influence.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
@@ -188,8 +189,10 @@ struct Effect {
   /// How much wider than their range its sizes spread: above 1 what wears, below what is set by
   /// hand and would be seen.
   double size_spread = 1.0;
-  /// Line of the budget (an Influence) by which a user states its u; empty: none.
-  std::string_view stated_as = {};
+  /// The influence by which a user states what is known of its one linear parameter; none: no way.
+  std::optional<Influence::Kind> stated_as = {};
+  /// What was stated: the readings are corrected by its value, and what remains is normal with u.
+  std::optional<Influence> stated = {};
   bool same_in_cut = false;  ///< the cut meets it as the probe did: the axis it cuts is the same
   SeparatedAs separated_as = SeparatedAs::neither;
   std::vector<NameInLathe> names_in_lathe = {};
@@ -244,7 +247,7 @@ const EffectParameter* size_for(const Effect& effect, const LinearParameter& lin
 /// All effects and checks, family by family.
 std::span<const Effect> effect_catalogue();
 
-/// nullptr when neither the catalogue nor `own` has one with this id.
+/// The entry of `own` with this id, else that of the catalogue; nullptr: neither has it.
 const Effect* find_effect(std::string_view id, std::span<const Effect> own = {});
 
 /// The entry of a check.

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trueaxis/influence.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/surface.hpp"
 #include "trueaxis/units.hpp"
@@ -32,18 +33,6 @@ enum class FitStatus {
 
 /// What the standard deviation of a reading follows from.
 enum class SigmaSource { none, residuals, robust_residuals, whitened_residuals, sensor };
-
-/// An influence quantity (GUM) that the readings cannot show: it enters the budget as type B.
-struct Influence {
-  enum class Kind {
-    probe_height,  ///< the probe line's offset in Y, mm
-    probe_gain,    ///< relative scale of the indication about its mean, 1
-    c_offset,      ///< spindle angle datum, rad
-    z_offset,      ///< Z datum, mm
-    ball_radius,   ///< radius of the probe's ball, mm
-  } kind;
-  double u = 0.0;  ///< standard uncertainty in the unit of the kind
-};
 
 struct FitOptions {
   SurfaceKind surface = SurfaceKind::cone;

@@ -46,7 +46,7 @@ Diagnosis advise(const ProbeStream& stream, const FitOptions& fit, double false_
   options.fit = fit;
   options.false_alarm = false_alarm;
   std::optional<Waiting> waiting("diagnosis of " + stream.source);
-  Diagnosis diagnosis = diagnose(stream, options);
+  Diagnosis diagnosis = diagnose(corrected_by_known(stream, fit), options);
   waiting.reset();
   expect_enough_readings(diagnosis.baseline);
   std::cout << advice_text(diagnosis);

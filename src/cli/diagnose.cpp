@@ -61,6 +61,7 @@ int execute(const DiagnoseArguments& options) {
   DiagnoseOptions diagnose_options;
   diagnose_options.fit = options.association.chosen();
   diagnose_options.false_alarm = options.false_alarm;
+  stream = corrected_by_known(std::move(stream), diagnose_options.fit);
   Diagnosis diagnosis = diagnose(stream, diagnose_options);
   if (const auto why = why_axis_unknown(stream, diagnosis))
     withhold_axis(diagnosis, words_of(*why));

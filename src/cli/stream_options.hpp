@@ -7,6 +7,7 @@
 
 #include "cli/options.hpp"
 #include "cli/typed_command.hpp"
+#include "job/files/influences_toml.hpp"
 #include "job/files/job_file.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/error.hpp"
@@ -92,6 +93,7 @@ struct AssociationOptions {
   FitOptions fit;
   std::string surface = "cone", loss = "plain";
   double noise_um = -1.0;
+  std::vector<std::string> known;
 
   /// @param fit_only the command takes surfaces that are not diagnosed as well
   CLI::Option* add_to(CLI::App& command, bool fit_only = false) {
@@ -108,6 +110,14 @@ struct AssociationOptions {
                "X_M is the centre of a ball of this radius, mm");
     add_option(command, "--noise", noise_um, a_length(),
                "standard deviation of one reading if known, µm");
+    if (!fit_only)
+      command
+          .add_option("--known", known,
+                      "what is known of probe and machine, with its standard uncertainty, such as "
+                      "lag_ms=0.4±0.1 or u_gain=0; keys are those of [sensor] of a job")
+          ->type_name("KEY=VALUE±U")
+          ->expected(1, 100)
+          ->allow_extra_args(false);
     add_option(command, "--coverage-factor", fit.coverage_factor,
                number_in(0.0, true, 100.0, "a number above 0, up to 100"), "k of U = k u (2)");
     return option;
@@ -117,6 +127,7 @@ struct AssociationOptions {
     FitOptions options = fit;
     options.surface = surface_from_id(surface);
     options.loss = loss == "huber" ? Loss::huber : loss == "tukey" ? Loss::tukey : Loss::plain;
+    options.influences = influences_of(known);
     if (noise_um >= 0.0) options.noise_mm = noise_um * mm_per_um;
     return options;
   }

@@ -9,12 +9,14 @@
 #include "base/threads.hpp"
 #include "diagnose/advise/advise.hpp"
 #include "diagnose/explain/averaged_axis.hpp"
+#include "diagnose/explain/axis_interval.hpp"
 #include "diagnose/explain/explanation.hpp"
 #include "diagnose/explain/form_class.hpp"
 #include "diagnose/explain/gain.hpp"
 #include "diagnose/explain/observable.hpp"
 #include "diagnose/explain/plausible_sizes.hpp"
 #include "diagnose/explain/quality.hpp"
+#include "diagnose/explain/stated.hpp"
 #include "fit/plausible.hpp"
 #include "measure/angles_alike.hpp"
 #include "trueaxis/diagnosis.hpp"
@@ -113,7 +115,12 @@ bool is_sharper(const FitResult& fit, const FitResult& ideal) {
 /// The averaged fit; if nothing was found and that is surer of the axis, the ideal fit.
 FitResult final_fit(const RelinearisedFit& refit, const AveragedAxis& average,
                     const FitResult& ideal, bool may_be_sharper) {
-  FitResult averaged = refit.shifted(average.shift, average.within, average.between);
+  BaseUncertainty base{average.within, average.between, {}};
+  for (const AveragedAxis::Source& source : average.sources)
+    if (source.effect && source.effect->stated)
+      base.stated.push_back(
+          {std::string(info_of(source.effect->stated->kind).name), source.covariance});
+  FitResult averaged = refit.shifted(average.shift, std::move(base));
   return is_sharper(averaged, ideal) && !may_be_sharper ? ideal : averaged;
 }
 
@@ -137,19 +144,38 @@ void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const M
   out.effective_hypotheses = out.false_alarm / std::exp(-0.5 * out.threshold);
 }
 
+/// The options with what is stated in the entries of the effects that it is of, and no longer among
+/// the influences of a fit.
+DiagnoseOptions with_entries(DiagnoseOptions options, Diagnosis& out) {
+  std::vector<Effect> entries(options.own_effects.begin(), options.own_effects.end());
+  std::erase_if(options.fit.influences, [&](const Influence& influence) {
+    const auto of =
+        std::ranges::find(effect_catalogue(), std::optional(influence.kind), &Effect::stated_as);
+    if (of == effect_catalogue().end()) return false;
+    entries.push_back(as_stated(*of, influence));
+    return true;
+  });
+  if (entries.size() > options.own_effects.size()) {
+    out.entries = std::make_shared<const std::vector<Effect>>(std::move(entries));
+    options.own_effects = *out.entries;
+  }
+  out.own_effects = options.own_effects;
+  return options;
+}
+
 }  // namespace
 
-Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
-  expects(options.false_alarm > 0.0 && options.false_alarm < 1.0, "a false alarm rate in (0, 1)");
-  for (const Effect& own : options.own_effects)
+Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
+  expects(asked.false_alarm > 0.0 && asked.false_alarm < 1.0, "a false alarm rate in (0, 1)");
+  for (const Effect& own : asked.own_effects)
     expects(find_effect(own.id) == nullptr, "an effect of one's own has an id of its own");
   Diagnosis out;
+  const DiagnoseOptions options = with_entries(asked, out);
   out.false_alarm = options.false_alarm;
-  out.own_effects = options.own_effects;
   const int threads = threads_beside(stream.size(), options.threads);
   DistinctValues indicated;
   for_each_index(2, threads, [&](std::size_t k) {
-    if (k == 0) out.baseline = fit(stream, options.fit);
+    if (k == 0) out.baseline = fit(stream, asked.fit);
     if (k == 1) indicated = distinct_values(stream.reading_mm);
   });
   if (!is_diagnosable(out.baseline)) return not_diagnosable(std::move(out));
@@ -169,8 +195,10 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.verdict = verdict_of(!out.findings.empty(), !out.unexplained.empty());
   const std::vector<Unobservable> hidden = unobservable_effects(
       refit->problem(), search.model, explanation.ambiguous, refit->joint().sigma_mm);
-  const AveragedAxis average = average_axis(refit->problem(), refit->joint(), explanation.ambiguous,
-                                            out.baseline, search.model.others);
+  const AveragedAxis average =
+      average_axis(refit->problem(), refit->joint(), explanation.ambiguous, search.model.others);
+  out.limits = limits_of(refit->problem().point, average);
+  out.refuted = refuted_statements(out.findings, out.own_effects);
   out.shares = average.shares;
   out.shares.insert(out.shares.end(), explanation.improbable.begin(), explanation.improbable.end());
   out.noise.masked = ideal.masked;

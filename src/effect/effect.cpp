@@ -154,7 +154,7 @@ std::span<const Effect> effect_catalogue() {
 }
 
 const Effect* find_effect(std::string_view id, std::span<const Effect> own) {
-  for (const std::span<const Effect> some : {effect_catalogue(), own})
+  for (const std::span<const Effect> some : {own, effect_catalogue()})
     for (const Effect& effect : some)
       if (effect.id == id) return &effect;
   return nullptr;

@@ -20,10 +20,9 @@ constexpr double correlation_sds = 4.0;  // 1/√N each: below, neighbours count
 constexpr double size_share =
     0.1;  // of the radius: uncertainties beyond it are not linear any more
 
-const char* influence_name(Influence::Kind kind) {
-  static constexpr const char* names[] = {"probe height", "probe gain", "spindle angle datum",
-                                          "position datum", "ball radius"};
-  return names[static_cast<std::size_t>(kind)];
+/// Those that a fit knows what to do with: the others are causes of a diagnosis.
+bool is_of_fit(const Influence& influence) {
+  return influence.kind <= Influence::Kind::ball_radius;
 }
 
 /// Jᵀa for the effect a of one unit of an influence on every reading; J column by column from the
@@ -251,6 +250,8 @@ std::vector<Source> budget_sources(const JointModel& model, const Association& a
   if (noise.correlated)
     sources.front().covariance = sources.front().covariance * noise.correlated->jtcj * inverse;
   std::vector<Influence> influences = options.influences;
+  std::erase_if(influences, [](const Influence& influence) { return !is_of_fit(influence); });
+  const std::size_t stated = influences.size();
   // Eccentricity at scattered angles is read smaller by σ_C²/2 (Fuller 1987), as by a gain.
   if (noise.angle_rad2 > 0.0)
     influences.push_back({Influence::Kind::probe_gain, 0.5 * noise.angle_rad2});
@@ -272,9 +273,9 @@ std::vector<Source> budget_sources(const JointModel& model, const Association& a
       shift = determination.inverse * shift;
     }
     shift *= influence.u;
-    const bool said = sources.size() <= options.influences.size();
-    sources.push_back({said ? influence_name(influence.kind) : "noise of C", said ? 'B' : 'A',
-                       shift * shift.transpose()});
+    const bool said = sources.size() <= stated;
+    sources.push_back({said ? std::string(info_of(influence.kind).name) : "noise of C",
+                       said ? 'B' : 'A', shift * shift.transpose()});
   }
   return sources;
 }

@@ -64,6 +64,9 @@ std::string_view template_of(ReasonCode code) {
        "(probability of the slip {probability::.2g}): {remedies}"},
       {part_moved, "{@part_slipped}: the axis is that of the part as it now stands"},
       {slip_unsure, "the part slipped, and where it is now is not known"},
+      {statement_refuted,
+       "{ref}{key} is stated as {stated:usual}, and the readings show {seen:usual} (U, k = 2): "
+       "correct the statement, or leave it out"},
       {moved_across, "{by:um:pm} µm"},
       {moved_along_z, "{by:um:pm} µm along Z"},
       {moved_tilt, "{by:deg:pm}° of tilt"},
@@ -251,8 +254,7 @@ std::string_view template_of(ReasonCode code) {
        "more than {times::.0f} times the readings would be needed: take a quieter sensor"},
       {hidden_cause,
        "no number of readings proves it: {effect}, which these passes do not show, leaves "
-       "{open:um:.2g} µm of the axis open<. {what}><. Or state the uncertainty of the "
-       "{stated_as} in the job>"},
+       "{open:um:.2g} µm of the axis open<. {what}><. Or state {stated_as} in the job>"},
       {measurement_would_prove, "readings alone do not prove it: {what}"},
       {nothing_proves,
        "no number of readings proves it: what the compromise, the stated influences and rival "

@@ -30,11 +30,21 @@ std::string length(double mm) {
 }
 
 double in_unit(double value, std::string_view unit) {
-  return unit == "um"     ? value / mm_per_um
-         : unit == "deg"  ? value / rad_per_deg
-         : unit == "mrad" ? 1e3 * value
-         : unit == "%"    ? 100.0 * value
-                          : value;
+  return unit == "um"                     ? value / mm_per_um
+         : unit == "deg"                  ? value / rad_per_deg
+         : unit == "mrad" || unit == "ms" ? 1e3 * value
+         : unit == "%"                    ? 100.0 * value
+                                          : value;
+}
+
+/// "3.00 ± 0.20 ms" of seconds, degrees of radians; others as they are inside.
+std::string usual(const ReasonNumber& one) {
+  const std::string_view inside = one.unit;
+  const std::string_view unit = inside == "s" ? "ms" : inside == "rad" ? "deg" : inside;
+  const double U = in_unit(one.U, unit);
+  const int decimals = U > 0.0 ? decimals_of(U, 1) : 3;
+  return fmt::format("{:.{}f} ± {:.{}f}", in_unit(one.value, unit), decimals, U, decimals) +
+         (unit == "1" ? "" : " " + std::string(unit));
 }
 
 ReasonCode code_of(std::string_view id) {
@@ -107,6 +117,7 @@ class Words {
     const std::size_t colon = std::min(how.find(':'), how.size());
     const std::string_view unit = how.substr(0, colon),
                            digits = how.substr(std::min(colon + 1, how.size()));
+    if (unit == "usual") return usual(one);
     if (unit == "length") return length(its_U ? one.U : one.value);
     const double value = in_unit(its_U ? one.U : one.value, unit), U = in_unit(one.U, unit);
     if (digits == "pm")

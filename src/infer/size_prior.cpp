@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "infer/size_posterior.hpp"
+
 namespace trueaxis::infer {
 namespace {
 
@@ -31,19 +33,15 @@ constexpr std::array<Node, 9> nodes{{{-2.0, 0.054},
                                      {6.0, 1e-5},
                                      {8.0, 1e-6}}};
 
-}  // namespace
+/// A term's columns beside others, and what is left of the readings without it.
+struct Beside {
+  const Eigen::MatrixXd& gram;
+  const Eigen::VectorXd &right, &norm2;
+  double rss, freedom;
+};
 
-double spread_of_size(double log_high_over_low) {
-  return std::max(least_spread, log_high_over_low / ends_of_range);
-}
-
-bool SizePrior::allows(const Eigen::VectorXd& size) const {
-  return least.size() == 0 ||
-         ((size.array() >= least.array()).all() && (size.array() <= most.array()).all());
-}
-
-Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
-              const Eigen::VectorXd& norm2, double rss, double freedom) {
+Weighed weighed(const SizePrior& prior, const Beside& beside, std::vector<SizePart>* parts) {
+  const auto& [gram, right, norm2, rss, freedom] = beside;
   const Eigen::Index n = gram.rows();
   const double first_variance = rss / std::max(freedom, 1.0);
   SmallVector scale(n);  // of the coefficients
@@ -64,12 +62,19 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
   const double variance =
       std::max(rss - gain, 1e-12 * rss) / std::max(freedom - static_cast<double>(n), 1.0);
 
-  std::array<double, nodes.size()> criterion{};
+  std::array<double, nodes.size() + 1> criterion{};
   double best = 1e300;
   auto count = known ? nodes.size() : 1;
   while (count > 1 && !prior.allows(prior.scale(nodes[count - 1].at))) --count;
+  const bool stated = known && prior.stated > 0.0;
+  if (stated) count = prior.doubt > 0.0 ? count + 1 : 1;  // first what is stated, then the nodes
   const auto factor2 = [&](std::size_t k) {
-    return known ? std::exp(2.0 * prior.spread * nodes[k].at) : 1.0;
+    if (stated && k == 0) return prior.stated * prior.stated;
+    return known ? std::exp(2.0 * prior.spread * nodes[stated ? k - 1 : k].at) : 1.0;
+  };
+  const auto weight_of = [&](std::size_t k) {
+    if (stated && k == 0) return 1.0 - prior.doubt;
+    return prior.doubt * nodes[stated ? k - 1 : k].weight;
   };
   for (std::size_t k = 0; k < count; ++k) {
     double shrunk = 0.0, widths = 0.0;
@@ -80,30 +85,34 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
       widths += std::log(value * factor2(k) / variance);
     }
     criterion[k] = freedom * std::log(std::max(1.0 - shrunk / rss, 1e-12)) + widths;
-    if (known) criterion[k] -= 2.0 * std::log(nodes[k].weight);
+    if (known) criterion[k] -= 2.0 * std::log(weight_of(k));
     best = std::min(best, criterion[k]);
   }
   Weighed out;
   double sum = 0.0, inverse2 = 0.0;
   SmallVector first = SmallVector::Zero(n), second = SmallVector::Zero(n);
   Small outer = Small::Zero(n, n);
+  const Small back = scale.asDiagonal() * Small(eigen.eigenvectors());
   for (std::size_t k = 0; k < count; ++k) {
     const double weight = std::exp(-0.5 * (criterion[k] - best));
-    SmallVector mean = SmallVector::Zero(n);
+    SmallVector mean = SmallVector::Zero(n), own(n);
     for (Eigen::Index j = 0; j < n; ++j) {
       const double value = std::max(eigen.eigenvalues()(j), 0.0) + variance / factor2(k);
       if (eigen.eigenvalues()(j) > floor) mean(j) = along(j) / value;
+      own(j) = variance / value;
       second(j) += weight * variance / value;
     }
     first += weight * mean;
     outer += weight * (mean * mean.transpose());
     inverse2 += weight / factor2(k);
     sum += weight;
+    if (parts) parts->push_back({weight, back * mean, back * own.asDiagonal() * back.transpose()});
   }
   out.criterion = best - 2.0 * std::log(sum);
   const SmallVector mean = first / sum;
   const Small spread = (outer / sum - mean * mean.transpose()) + Small((second / sum).asDiagonal());
-  const Small back = scale.asDiagonal() * Small(eigen.eigenvectors());
+  if (parts)
+    for (SizePart& part : *parts) part.weight /= sum;
   out.mean = back * mean;
   out.possible = prior.allows(out.mean);
   const Eigen::VectorXd most = prior.scale(far);
@@ -116,10 +125,38 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
   return out;
 }
 
+}  // namespace
+
+double spread_of_size(double log_high_over_low) {
+  return std::max(least_spread, log_high_over_low / ends_of_range);
+}
+
+bool SizePrior::allows(const Eigen::VectorXd& size) const {
+  return least.size() == 0 ||
+         ((size.array() >= least.array()).all() && (size.array() <= most.array()).all());
+}
+
+Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
+              const Eigen::VectorXd& norm2, double rss, double freedom) {
+  return weighed(prior, {gram, right, norm2, rss, freedom}, nullptr);
+}
+
 Weighed weigh(const SizePrior& prior, const Projection& projection, const Columns& own,
               std::size_t count) {
   return weigh(prior, projection.gram(own, own), projection.gram(own, {0}), projection.norm2(own),
                projection.rss, static_cast<double>(count - std::min(count, projection.rank)));
+}
+
+std::vector<SizePart> size_posterior(const SizePrior& prior, const Projection& projection,
+                                     const Columns& own, std::size_t count) {
+  const Eigen::MatrixXd gram = projection.gram(own, own);
+  const Eigen::VectorXd right = projection.gram(own, {0}), norm2 = projection.norm2(own);
+  std::vector<SizePart> parts;
+  weighed(prior,
+          {gram, right, norm2, projection.rss,
+           static_cast<double>(count - std::min(count, projection.rank))},
+          &parts);
+  return parts;
 }
 
 }  // namespace trueaxis::infer

@@ -128,6 +128,19 @@ std::optional<Reason> slip_unsure_of(const ProbeStream&, const Diagnosis& diagno
   return Reason{ReasonCode::slip_unsure};
 }
 
+std::optional<Reason> statement_refuted_of(const ProbeStream&, const Diagnosis& diagnosis) {
+  for (const RefutedStatement& one : diagnosis.refuted) {
+    const InfluenceInfo& info = info_of(one.stated.kind);
+    const char* unit = info.unit.data();
+    return Reason{ReasonCode::statement_refuted,
+                  {},
+                  {{"stated", one.stated.value, unit, 2.0 * one.stated.u},
+                   {"seen", one.seen.value, unit, 2.0 * one.seen.u}},
+                  {{"key", std::string(info.stated)}}};
+  }
+  return {};
+}
+
 std::optional<Reason> few_angles_in(const ProbeStream& stream, const Diagnosis&) {
   return few_angles_of(stream);
 }
@@ -137,6 +150,10 @@ constexpr Threshold of_beats[] = {least_beats};
 constexpr Threshold of_angles[] = {least_angles, angles_apart};
 constexpr Threshold of_move[] = {{"moved", 1.0, "of U", "what is less is within it"}};
 
+constexpr Threshold of_statement[] = {{"off", refuted_by, "of its u and that of what is seen",
+                                       "1 of 1000 that are right are beyond"}};
+constinit const AxisDoubt statement_refuted{"statement_refuted", of_statement,
+                                            statement_refuted_of};
 constinit const AxisDoubt slip_unsure{"slip_unsure", {}, slip_unsure_of};
 constinit const AxisDoubt moves_in_pass{"moves_in_pass", of_move, moved_in_pass_of};
 constinit const AxisDoubt moves_with_axis{"moves_with_axis", of_beats, moves_with_axis_of};
@@ -156,9 +173,9 @@ constinit const JobCheck axis_known{
     "axis_known", CheckedAt::references, Weight::leaves_open, {}, find_axis_unknown};
 
 std::span<const AxisDoubt* const> axis_doubts() {
-  static constexpr std::array all{&slip_unsure,   &left_out_at_an_end, &far_off_at_the_end,
-                                  &moves_in_pass, &left_unexplained,   &moves_with_axis,
-                                  &few_angles};
+  static constexpr std::array all{&statement_refuted,  &slip_unsure,   &left_out_at_an_end,
+                                  &far_off_at_the_end, &moves_in_pass, &left_unexplained,
+                                  &moves_with_axis,    &few_angles};
   return all;
 }
 

@@ -24,9 +24,9 @@ struct AxisDoubt {
 /// standing spindle show of it.
 extern const AxisDoubt left_unexplained;
 
-/// All of them: a slip that is not sure or at an end, a move within a pass by more than U of the
-/// axis (Eq. 314), what is left unexplained, a pattern or a finding that goes with the
-/// eccentricity, angles so few that lobes are no different from one.
+/// All of them: a statement that the readings refute, a slip that is not sure or at an end, a move
+/// within a pass by more than U of the axis (Eq. 314), what is left unexplained, a pattern or a
+/// finding that goes with the eccentricity, angles so few that lobes are no different from one.
 std::span<const AxisDoubt* const> axis_doubts();
 
 /// No reference has a doubt of its axis.

@@ -16,8 +16,11 @@ namespace {
 /// Fits, what they tell of each other, and the diagnosis of each.
 IdentifiedJob identified(Job job, std::vector<ProbeStream> streams) {
   IdentifiedJob out{std::move(job), std::move(streams), {}, {}, {}, {}};
-  for (std::size_t i = 0; i < out.streams.size(); ++i)
-    out.fits.push_back(fit(out.streams[i], out.job.references[i].fit));
+  for (std::size_t i = 0; i < out.streams.size(); ++i) {
+    const FitOptions& options = out.job.references[i].fit;
+    out.streams[i] = corrected_by_known(std::move(out.streams[i]), options);
+    out.fits.push_back(fit(out.streams[i], options));
+  }
   out.agreement = hold_together(out);
   for (std::size_t i = 0; i < out.streams.size(); ++i) {
     auto& diagnosis = out.diagnoses.emplace_back();

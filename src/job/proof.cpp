@@ -94,8 +94,10 @@ std::optional<Reason> most_open(const Diagnosis& diagnosis, const AxisCovariance
     reason.names.push_back({"plan", hidden->separate_with->plan});
     reason.names.push_back({"what", hidden->separate_with->what});
   }
-  if (const Effect* effect = diagnosis.entry(most->effect); effect && !effect->stated_as.empty())
-    reason.names.push_back({"stated_as", std::string(effect->stated_as)});
+  if (const Effect* effect = diagnosis.entry(most->effect);
+      effect && effect->stated_as && !effect->stated)
+    reason.names.push_back(
+        {"stated_as", std::string(info_of(*effect->stated_as).stated) + " with its u"});
   return reason;
 }
 

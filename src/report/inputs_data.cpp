@@ -32,18 +32,13 @@ const char* loss_text(Loss loss) {
 }
 
 std::string influence_text(const Influence& influence) {
-  struct Known {
-    Influence::Kind kind;
-    const char *what, *unit;
-    double scale = 1.0;
-  };
-  static constexpr Known all[] = {{Influence::Kind::probe_height, "probe height", "mm"},
-                                  {Influence::Kind::probe_gain, "probe gain", "(relative)"},
-                                  {Influence::Kind::c_offset, "C datum", "°", 1.0 / rad_per_deg},
-                                  {Influence::Kind::z_offset, "Z datum", "mm"},
-                                  {Influence::Kind::ball_radius, "ball radius", "mm"}};
-  const Known& known = *std::ranges::find(all, influence.kind, &Known::kind);
-  return std::string(known.what) + ", u = " + number(influence.u * known.scale, known.unit);
+  const InfluenceInfo& info = info_of(influence.kind);
+  const bool angle = info.unit == "rad", time = info.unit == "s";
+  const std::string unit(angle ? "°" : time ? "ms" : info.unit == "1" ? "(relative)" : info.unit);
+  const double scale = angle ? 1.0 / rad_per_deg : time ? 1e3 : 1.0;
+  return std::string(info.name) +
+         (influence.value != 0.0 ? " " + number(influence.value * scale, unit.c_str()) : "") +
+         ", u = " + number(influence.u * scale, unit.c_str());
 }
 
 std::string convention_text(const XConvention& convention) {

@@ -167,6 +167,7 @@ void draw_effects(Draw& draw, Case& out) {
   std::vector<Effect>& list = out.scenario.effects;
   const int count = out.group == Group::slip      ? draw.whole(1, 3)
                     : out.group == Group::outside ? draw.whole(0, 2)
+                    : out.group >= Group::noise   ? 0
                                                   : draw.whole(2, 6);
   for (int tries = 0; static_cast<int>(list.size()) < count && tries < 300; ++tries) {
     const auto& family =
@@ -195,7 +196,7 @@ void draw_effects(Draw& draw, Case& out) {
 }  // namespace
 
 std::string_view name_of(Group group) {
-  constexpr std::string_view names[] = {"mixture", "slip", "outside", "absorbed"};
+  constexpr std::string_view names[] = {"mixture", "slip", "outside", "absorbed", "noise", "known"};
   return names[static_cast<std::size_t>(group)];
 }
 
@@ -266,6 +267,16 @@ int Judged::covered() const {
   return count;
 }
 
+double Judged::interval_score_mm() const {
+  constexpr double alpha = 0.05;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double half = 2.0 * u_mm[i], outside = std::abs(error_mm[i]) - half;
+    sum += 2.0 * half + 2.0 / alpha * std::max(0.0, outside);
+  }
+  return 0.25 * sum;
+}
+
 Judged judge(const Case& of, const AxisEstimate& axis) {
   const std::array<double, 4> truth = true_ends(of);
   Judged out;
@@ -290,6 +301,9 @@ Diagnosis diagnosed(const Case& of, const ProbeStream& stream) {
   options.threads = 1;
   options.fit.surface = of.surface == "cylinder" ? SurfaceKind::cylinder : SurfaceKind::cone;
   options.fit.bore = of.scenario.part.bore;
+  if (of.group == Group::known)
+    for (const InfluenceInfo& info : influence_catalogue())
+      if (info.has_value) options.fit.influences.push_back({info.kind, 0.0});
   return diagnose(stream, options);
 }
 

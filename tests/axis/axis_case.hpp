@@ -21,8 +21,11 @@ enum class Group {
   slip,      ///< one to three of them and a slip of 10 to 200 µm
   outside,   ///< one that is in no catalogue, and up to two that are
   absorbed,  ///< 2 to 6 effects, also such that the plan cannot show
+  noise,     ///< nothing
+  known,     ///< nothing, and probe and machine are stated to have none of what may be stated
 };
-inline constexpr Group groups[] = {Group::mixture, Group::slip, Group::outside, Group::absorbed};
+inline constexpr Group groups[] = {Group::mixture,  Group::slip,  Group::outside,
+                                   Group::absorbed, Group::noise, Group::known};
 std::string_view name_of(Group group);
 
 /// A stream with what only the judge knows.
@@ -50,6 +53,9 @@ struct Judged {
   double rms_mm() const;                     ///< over both ends
   double u_rms_mm() const;
   int covered() const;  ///< of the four, by k = 2
+  /// Interval score of e ± 2 u at 95 % (Gneiting and Raftery 2007, Eq. 43), mean of the four: the
+  /// width plus 2/0.05 times what lies outside. The lower, the better.
+  double interval_score_mm() const;
 };
 Judged judge(const Case& of, const AxisEstimate& axis);
 

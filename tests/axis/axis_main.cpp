@@ -24,12 +24,13 @@ constexpr std::size_t slice = 100;
 
 std::string line_of(std::string_view group, const axis::Outcome& o) {
   return fmt::format(
-      "{},{},{},{},{},{},{:.3f},{},{},{:.5f},{:.5f},{},{:.5f},{:.5f},{},{:.4f},{},{}\n", group,
-      o.made.seed, blind::to_string(o.made.plan), o.made.surface, o.made.side, o.made.noise,
+      "{},{},{},{},{},{},{:.3f},{},{},{:.5f},{:.5f},{},{:.5f},{:.5f},{:.5f},{},{:.5f},{:.4f},{},{}"
+      "\n",
+      group, o.made.seed, blind::to_string(o.made.plan), o.made.surface, o.made.side, o.made.noise,
       o.made.scenario.part.radius_mm, o.readings, o.made.scenario.effects.size(),
       1e3 * o.ideal.rms_mm(), 1e3 * o.ideal.u_rms_mm(), o.ideal.covered(),
-      1e3 * o.extended.rms_mm(), 1e3 * o.extended.u_rms_mm(), o.extended.covered(), o.seconds,
-      o.hidden, o.found);
+      1e3 * o.ideal.interval_score_mm(), 1e3 * o.extended.rms_mm(), 1e3 * o.extended.u_rms_mm(),
+      o.extended.covered(), 1e3 * o.extended.interval_score_mm(), o.seconds, o.hidden, o.found);
 }
 
 /// One case for a person: what was drawn, where the axis is, what the diagnosis says of it.
@@ -69,7 +70,7 @@ int main(int argc, char** argv) {
   int threads = 0;
   app.add_option("--cases", cases, "streams of each group");
   app.add_option("--seed", seed, "of the first of each group");
-  app.add_option("--only", only, "groups: mixture slip outside absorbed");
+  app.add_option("--only", only, "groups: mixture slip outside absorbed noise known");
   app.add_option("--threads", threads, "streams at a time; 0: as many as there are processors");
   std::optional<std::uint64_t> shown;
   app.add_option("--csv", csv, "a line a stream");
@@ -85,7 +86,9 @@ int main(int argc, char** argv) {
   }
   std::ofstream out(csv);
   out << "group,seed,plan,surface,side,noise,radius_mm,readings,effects,ideal_um,u_ideal_um,"
-         "covered_ideal,extended_um,u_extended_um,covered_extended,seconds,hidden,found\n";
+         "covered_ideal,score_ideal_um,extended_um,u_extended_um,covered_extended,score_extended_"
+         "um,"
+         "seconds,hidden,found\n";
   for (const axis::Group group : axis::groups) {
     if (!wanted(group)) continue;
     const std::string_view name = axis::name_of(group);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "axis/axis_case.hpp"
+#include "axis/draw.hpp"
 
 namespace trueaxis::axis {
 namespace {
@@ -33,6 +34,28 @@ TEST(AxisStudy, SeveralSmallEffectsMakeTheAxisNoWorse) {
   // The four numbers of a stream go together: of 16 streams covered with probability 0.935 each
   // (the goal's lower end), fewer than 12 are by chance 0.3 times in 100.
   EXPECT_GE(sums.covered, 4 * 12) << "seed " << seed;
+}
+
+// Of a normal error the score is least for the true u (Gneiting and Raftery 2007, Eq. 43): at ±2 σ
+// it is 4 σ + 40 · 2 σ (φ(2) − 2 (1 − Φ(2))) = 4.68 σ, and half of U or twice of it scores worse.
+TEST(AxisStudy, TheScoreIsLeastForTheRightU) {
+  Draw draw(5);
+  constexpr int streams = 4000;
+  double half = 0.0, right = 0.0, twice = 0.0;
+  for (int i = 0; i < streams; ++i) {
+    Judged one;
+    for (double& e : one.error_mm)
+      e = std::sqrt(-2.0 * std::log(draw.unit() + 1e-300)) * std::cos(draw.phase());
+    const auto with_u = [&](double u) {
+      one.u_mm.fill(u);
+      return one.interval_score_mm() / streams;
+    };
+    half += with_u(0.5), right += with_u(1.0), twice += with_u(2.0);
+  }
+  // The excess has a second moment of 0.0115 σ²: 40 · 2 · √(0.0115 / 16 000) is 0.07 at one sigma.
+  EXPECT_NEAR(right, 4.68, 0.3);
+  EXPECT_LT(right, half);
+  EXPECT_LT(right, twice);
 }
 
 // The ideal fit mixes what was probed before the slip and after it.

@@ -52,7 +52,8 @@ TEST(MachineDiagnosisCommand, HasTheKeysOfADiagnosis) {
     for (const std::string& key : keys(from))
       EXPECT_TRUE(less.contains(key) || there.contains(key)) << key;
   };
-  expect_keys(of_surface, of_machine, {"form", "input", "named", "shares", "u_frame", "spectrum"});
+  expect_keys(of_surface, of_machine,
+              {"form", "input", "named", "shares", "limits", "u_frame", "spectrum"});
   ASSERT_FALSE(of_surface.at("findings").empty());
   ASSERT_FALSE(of_machine.at("findings").empty());
   const json &one = of_surface.at("findings")[0], &other = of_machine.at("findings")[0];

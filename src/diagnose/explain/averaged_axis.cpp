@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/explain/axis_interval.hpp"
 #include "diagnose/explain/form_class.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/local_forms.hpp"
 #include "infer/significance.hpp"
+#include "infer/size_posterior.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -23,13 +25,6 @@ constexpr double told = 1e-3;           // probability below which a model is no
 constexpr double nothing = 1e-2;        // of u: a shift below is none
 constexpr std::size_t most_forms = 48;  // shapes of a local form that are averaged over
 constexpr double finer[] = {0.06, 0.02, 0.007};  // steps about the one that was found
-
-/// A model of the readings instead of the named one.
-struct Alternative {
-  double probability = 0.0;
-  Eigen::VectorXd off;         ///< its base less that of the named model
-  Eigen::MatrixXd covariance;  ///< what its term's own uncertainty adds to the base
-};
 
 /// A step that was found in some of its parameters had the others too: what of them the readings do
 /// not show enters U.
@@ -54,23 +49,22 @@ void add_rest_of_steps(const Problem& problem, const std::vector<Hypothesis>& te
   }
 }
 
-/// Effects that might be there and were not found, seen or not, but for those whose uncertainty is
-/// stated and those that the cut meets as the probe did. Harmonics of free order are left out: they
-/// are no neighbours of the axis, which is of order one.
+/// Effects that might be there and were not found, seen or not, but for those that the cut meets as
+/// the probe did. Harmonics of free order are left out: they are no neighbours of the axis, which
+/// is of order one. What is stated of an effect holds whatever a finding may be.
 std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypothesis>& terms,
-                                  const std::vector<AmbiguousFinding>& findings,
-                                  const FitResult& ideal) {
+                                  const std::vector<AmbiguousFinding>& findings) {
   std::vector<Hypothesis> list = preset_causes(problem);
   std::erase_if(list, [&](const Hypothesis& h) {
     const Effect& effect = *h.effect;
     const auto is_it = [&](const Hypothesis& other) { return other.effect == &effect; };
-    const auto stated = [&](const BudgetLine& line) { return line.source == effect.stated_as; };
-    return has_free_order(effect) || effect.same_in_cut ||
-           std::ranges::any_of(ideal.budget, stated) || std::ranges::any_of(terms, is_it) ||
-           std::ranges::any_of(findings, [&](const AmbiguousFinding& f) {
-             return std::ranges::any_of(f.found.members,
-                                        [&](const Candidate& c) { return is_it(c.hypothesis); });
-           });
+    if (has_free_order(effect) || effect.same_in_cut || std::ranges::any_of(terms, is_it))
+      return true;
+    if (effect.stated) return effect.stated->u == 0.0;
+    return std::ranges::any_of(findings, [&](const AmbiguousFinding& f) {
+      return std::ranges::any_of(f.found.members,
+                                 [&](const Candidate& c) { return is_it(c.hypothesis); });
+    });
   });
   add_rest_of_steps(problem, terms, list);
   return list;
@@ -89,12 +83,12 @@ double unexplained_rms(const Joint& joint) {
 class Averaging {
  public:
   Averaging(const Problem& problem, const Joint& joint,
-            const std::vector<AmbiguousFinding>& findings, const FitResult& ideal)
+            const std::vector<AmbiguousFinding>& findings)
       : problem_(problem),
         terms_(joint.terms.size()),
         findings_(findings),
         local_(local_shapes(problem, joint)),
-        beside_(not_found(problem, joint.terms, findings, ideal)),
+        beside_(not_found(problem, joint.terms, findings)),
         wide_(problem, joint.equations.autoregression(), all_of(joint), terms_),
         gram_(wide_.equations.total()),
         n_(static_cast<Eigen::Index>(wide_.equations.base().size())) {
@@ -174,7 +168,8 @@ class Averaging {
   }
 
   Weighed weigh_term(std::size_t place, const Projection& beside) const {
-    return weigh(wide_.terms[place], beside, wide_.places[place], wide_.equations.count());
+    return weigh(stated_prior(wide_.terms[place]), beside, wide_.places[place],
+                 wide_.equations.count());
   }
 
   /// −2 ln of the odds of a term against none.
@@ -184,8 +179,7 @@ class Averaging {
   }
 
   Alternative with(std::size_t place, const Solution& without, const Weighed& weighed) const {
-    const Eigen::MatrixXd right = gram_(without.columns, wide_.places[place]);
-    const Eigen::MatrixXd per_unit = (without.inverse * right).topRows(n_);
+    const Eigen::MatrixXd per_unit = base_per_unit(place, without);
     Alternative out;
     out.off =
         without.coefficients.head(n_) - per_unit * weighed.mean - named_.coefficients.head(n_);
@@ -193,14 +187,35 @@ class Averaging {
     return out;
   }
 
-  void add(const std::vector<Alternative>& list, AveragedAxis& out) const {
+  Eigen::MatrixXd base_per_unit(std::size_t place, const Solution& without) const {
+    const Eigen::MatrixXd right = gram_(without.columns, wide_.places[place]);
+    return (without.inverse * right).topRows(n_);
+  }
+
+  /// The same beside the named model as the mixture over its sizes, of a probability in all.
+  void add_sizes(std::size_t place, const Projection& beside, double probability,
+                 std::vector<Alternative>& list) const {
+    const Eigen::MatrixXd per_unit = base_per_unit(place, named_);
+    for (const SizePart& part : size_posterior(stated_prior(wide_.terms[place]), beside,
+                                               wide_.places[place], wide_.equations.count()))
+      list.push_back({probability * part.weight, -per_unit * part.mean,
+                      per_unit * part.covariance * per_unit.transpose()});
+  }
+
+  /// @param law the normals of the list; empty: they are those
+  void add(std::vector<Alternative> list, const Effect* effect, const std::string& instead_of,
+           AveragedAxis& out, std::vector<Alternative> law = {}) const {
     Eigen::VectorXd shift = Eigen::VectorXd::Zero(n_);
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n_, n_);
     for (const Alternative& a : list) {
       shift += a.probability * a.off;
-      out.between += a.probability * (a.off * a.off.transpose() + a.covariance);
+      covariance += a.probability * (a.off * a.off.transpose() + a.covariance);
     }
-    out.between -= shift * shift.transpose();
+    covariance -= shift * shift.transpose();
+    out.between += covariance;
     out.shift += shift;
+    if (law.empty()) law = std::move(list);
+    out.sources.push_back({effect, instead_of, std::move(covariance), std::move(law)});
   }
 
   void tell(const std::string& effect, const std::string& instead_of, const Alternative& a,
@@ -229,7 +244,7 @@ class Averaging {
     list.push_back({none, without.coefficients.head(n_) - named_.coefficients.head(n_),
                     Eigen::MatrixXd::Zero(n_, n_)});
     tell("", named, list.back(), out);
-    add(list, out);
+    add(list, nullptr, named, out);
   }
 
   /// The shapes are alternatives to each other, and take the place of the one that was found.
@@ -249,7 +264,7 @@ class Averaging {
     for (std::size_t k = 0; k < list.size(); ++k)
       sum += list[k].probability = std::exp(-0.5 * (criterion[k] - best));
     for (Alternative& a : list) a.probability /= sum;
-    add(list, out);
+    add(list, nullptr, wide_.terms[local.term].id(), out);
     // What its own size adds was counted with the noise already.
     out.between -= wide_.sigma_mm * wide_.sigma_mm *
                    (named_.inverse.topLeftCorner(n_, n_) - without.inverse.topLeftCorner(n_, n_));
@@ -258,21 +273,23 @@ class Averaging {
   /// One effect that was not found, its shapes being alternatives.
   struct Missed {
     std::vector<Alternative> shapes;  ///< the probability of each once it is there
+    std::vector<std::size_t> places;  ///< of each
     double odds = 0.0;                ///< against the effect being absent
-    std::string id;
+    const Effect* effect = nullptr;
   };
 
   Missed missed_from(std::size_t& k, std::size_t next, const Projection& beside) const {
     Missed out;
     const Effect* effect = beside_[k].effect;
     const double often = is_step(effect->term) ? moved_in_all : present;
-    out.id = beside_[k].id();
+    out.effect = effect;
     double sum = 0.0;
     std::size_t shapes = 0;
     for (; k < beside_.size() && beside_[k].effect == effect; ++k, ++next) {
-      if (score(beside, wide_.places[next]).rank == 0) continue;
+      if (!effect->stated && score(beside, wide_.places[next]).rank == 0) continue;
       const Weighed weighed = weigh_term(next, beside);
       out.shapes.push_back(with(next, named_, weighed));
+      out.places.push_back(next);
       out.shapes.back().probability =
           std::exp(-0.5 * std::clamp(odds_of(next, weighed, often), -1400.0, 1400.0));
       sum += out.shapes.back().probability, ++shapes;
@@ -283,29 +300,38 @@ class Averaging {
   }
 
   /// Effects that are there more likely than not are taken as alternatives to each other, for they
-  /// may explain the same; the others as independent.
+  /// may explain the same; the others as independent. What is stated of one is there.
   void of_not_found(std::size_t next, AveragedAxis& out) const {
     const Projection beside = project(gram_, named_.columns);
     std::vector<Missed> missed;
     for (std::size_t k = 0, first = 0; k < beside_.size(); first = k)
       missed.push_back(missed_from(k, next + first, beside));
     double likely = 0.0;
+    const auto competes = [](const Missed& m) { return m.odds > 1.0 && !m.effect->stated; };
     for (const Missed& m : missed)
-      if (m.odds > 1.0) likely += m.odds;
-    std::vector<Alternative> rivals;
+      if (competes(m)) likely += m.odds;
+    std::vector<Alternative> rivals, law_of_rivals;
+    const Effect* first = nullptr;  // the likeliest of them
+    double most_odds = 0.0;
     for (Missed& m : missed) {
       if (m.shapes.empty()) continue;
-      const double p = m.odds / (1.0 + (m.odds > 1.0 ? likely : m.odds));
+      const double p = m.effect->stated ? 1.0 : m.odds / (1.0 + (competes(m) ? likely : m.odds));
       for (Alternative& a : m.shapes) a.probability *= p;
       Alternative most = *std::ranges::max_element(m.shapes, {}, &Alternative::probability);
-      if (m.odds > 1.0)
+      std::vector<Alternative> law;
+      std::vector<Alternative>& sizes = competes(m) ? law_of_rivals : law;
+      for (std::size_t i = 0; i < m.shapes.size(); ++i)
+        add_sizes(m.places[i], beside, m.shapes[i].probability, sizes);
+      if (competes(m)) {
         rivals.insert(rivals.end(), m.shapes.begin(), m.shapes.end());
-      else
-        add(m.shapes, out);
+        if (m.odds > most_odds) first = m.effect, most_odds = m.odds;
+      } else {
+        add(m.shapes, m.effect, "", out, std::move(law));
+      }
       most.probability = p;
-      tell(m.id, "", most, out);
+      tell(std::string(m.effect->id), "", most, out);
     }
-    add(rivals, out);
+    if (!rivals.empty()) add(rivals, first, "", out, std::move(law_of_rivals));
   }
 
   const Problem& problem_;
@@ -321,9 +347,10 @@ class Averaging {
 
 /// With what no cause explains.
 AveragedAxis averaged(const Problem& problem, const Joint& joint,
-                      const std::vector<AmbiguousFinding>& findings, const FitResult& ideal) {
-  AveragedAxis out = Averaging(problem, joint, findings, ideal).average();
+                      const std::vector<AmbiguousFinding>& findings) {
+  AveragedAxis out = Averaging(problem, joint, findings).average();
   if (problem.point.base.face) return out;
+  set_interval(problem.point, out);
   const double left_mm = discrepancy * unexplained_rms(joint);
   out.between += covariance_of_ends(problem.point, out.between.rows(), left_mm);
   return out;
@@ -332,19 +359,20 @@ AveragedAxis averaged(const Problem& problem, const Joint& joint,
 }  // namespace
 
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
-                          const std::vector<AmbiguousFinding>& findings, const FitResult& ideal,
+                          const std::vector<AmbiguousFinding>& findings,
                           const std::vector<Otherwise>& others) {
-  AveragedAxis out = averaged(problem, joint, findings, ideal);
+  AveragedAxis out = averaged(problem, joint, findings);
   if (others.empty()) return out;
   const Eigen::VectorXd named = out.shift;
   double probability = 1.0;
   for (const Otherwise& other : others) probability -= other.probability;
+  for (AveragedAxis::Source& source : out.sources) source.covariance *= probability;
   out.shift *= probability, out.within *= probability;
   out.between = probability * (out.between + named * named.transpose());
   std::vector<AxisShare> shares;
   for (const Otherwise& o : others) {
     const Joint other(problem, joint.equations.autoregression(), o.terms, o.terms.size());
-    const AveragedAxis rival = averaged(problem, other, {}, ideal);
+    const AveragedAxis rival = averaged(problem, other, {});
     const Eigen::VectorXd shift = other.base() + rival.shift - joint.base();
     out.shift += o.probability * shift;
     out.within += o.probability * rival.within;

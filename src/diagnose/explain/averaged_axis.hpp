@@ -10,20 +10,34 @@
 
 namespace trueaxis::diagnose_detail {
 
+/// A model of the readings instead of the named one.
+struct Alternative {
+  double probability = 0.0;
+  Eigen::VectorXd off;         ///< its base less that of the named model
+  Eigen::MatrixXd covariance;  ///< what its term's own uncertainty adds to the base
+};
+
 /// The base of the model averaged over all that may have caused the readings (Hoeting et al. 1999,
 /// Statistical Science 14, 382), weighted by their probability (Eq. 95).
 struct AveragedAxis {
-  Eigen::VectorXd shift;          ///< of the base, against that of the named model by least squares
-  Eigen::MatrixXd within;         ///< covariance of the base by the noise, sizes being plausible
-  Eigen::MatrixXd between;        ///< what the causes that the data cannot tell add
+  Eigen::VectorXd shift;    ///< of the base, against that of the named model by least squares
+  Eigen::MatrixXd within;   ///< covariance of the base by the noise, sizes being plausible
+  Eigen::MatrixXd between;  ///< what the causes that the data cannot tell add
+  /// What each of them adds: an effect that was not found, or what else a finding may be.
+  struct Source {
+    const Effect* effect = nullptr;
+    std::string instead_of;
+    Eigen::MatrixXd covariance;
+    std::vector<Alternative> law;  ///< the normals of its mixture; 0 with what they lack of 1
+  };
+  std::vector<Source> sources;
   std::vector<AxisShare> shares;  ///< the models that move it, the largest first
 };
 
 /// @param findings the ambiguous terms of the joint fit
 /// @param others models of other terms that explain the readings instead
-/// @param ideal the fit of the surface alone: what its budget states is not averaged over
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
-                          const std::vector<AmbiguousFinding>& findings, const FitResult& ideal,
+                          const std::vector<AmbiguousFinding>& findings,
                           const std::vector<Otherwise>& others = {});
 
 }  // namespace trueaxis::diagnose_detail

@@ -158,6 +158,11 @@ Json share_object(const AxisShare& share) {
           {"axis_shift", estimate_object(share.axis_shift)}};
 }
 
+Json limit_object(const AxisLimit& limit) {
+  return {
+      {"effect", limit.effect}, {"instead_of", limit.instead_of}, {"share", number(limit.share)}};
+}
+
 Json diagnosis_object(const Diagnosis& d) {
   Json json;
   json["schema"] = diagnosis_schema;
@@ -169,6 +174,7 @@ Json diagnosis_object(const Diagnosis& d) {
   json["named"] = fit_object(d.named);
   json["extended"] = fit_object(d.extended);
   json["shares"] = list_of(d.shares, share_object);
+  json["limits"] = list_of(d.limits, limit_object);
   json["u_frame"] = {{"z_mid", length(d.z_mid_mm)}, {"z_half", length(d.z_half_mm)}};
   json["findings"] = list_of(d.findings, whole_finding);
   json["consequences"] = consequences_object(d);

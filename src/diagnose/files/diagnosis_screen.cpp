@@ -121,7 +121,7 @@ std::string diagnosis_screen(const Diagnosis& d, const std::string& form) {
              fmt::format("{}: {:.0f} min, and then the right cause is named with a probability "
                          "of {}",
                          d.next.what, std::ceil(d.next.minutes), probability(d.next.power_after)));
-  return text + (tilt_alone ? form : "");
+  return text + limit_screen(d) + (tilt_alone ? form : "");
 }
 
 }  // namespace trueaxis

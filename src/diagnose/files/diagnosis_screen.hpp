@@ -19,6 +19,10 @@ std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);
 /// these readings, by how much of it moves the axis by as much as U; empty: nothing, or of a plane.
 std::string unseen_screen(const Diagnosis& diagnosis);
 
+/// "limit  U 0.66 µm would be 0.33 µm without probe.lag …": what limits U of the axis most, and
+/// what to do about it; empty: an axis without U, or of a plane.
+std::string limit_screen(const Diagnosis& diagnosis);
+
 /// "check  100 readings at C 80-98° excluded …": which readings count nowhere, and why.
 std::string excluded_screen(const Diagnosis& diagnosis);
 

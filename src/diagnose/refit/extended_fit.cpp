@@ -12,6 +12,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+constexpr double rounding = 1e-12;  // of a variance: what is less remains of a difference
+
 /// What a fit takes of the stream without masked readings, less the contribution of the terms.
 ProbeStream cleaned(const ProbeStream& stream, const ObservationMask& mask,
                     std::vector<double> effect_mm) {
@@ -98,8 +100,8 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> slope(
       jacobian.data(), static_cast<Eigen::Index>(n), 6);
   const Eigen::MatrixXd joint_covariance = slope * covariance * slope.transpose();
-  const Eigen::VectorXd from_noise = (slope * of_noise * slope.transpose()).diagonal(),
-                        from_causes = (slope * of_causes * slope.transpose()).diagonal();
+  const Eigen::VectorXd from_noise = (slope * of_noise * slope.transpose()).diagonal();
+  Eigen::VectorXd from_causes = (slope * of_causes * slope.transpose()).diagonal();
   const auto root = [](const Eigen::VectorXd& variance, std::size_t i) {
     return std::sqrt(std::max(0.0, variance(static_cast<Eigen::Index>(i))));
   };
@@ -112,11 +114,20 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
     if (!result.budget.empty()) result.budget[0].u[p] = root(from_noise, p);
   }
   add_apex_interval(result.parameters, result.covariance, result.coverage_factor);
-  if (from_causes.maxCoeff() > 0.0) {
-    BudgetLine line{"causes that the readings cannot tell", 'B', {}};
-    for (std::size_t p = 0; p < n; ++p) line.u.push_back(root(from_causes, p));
+  const auto add_line = [&](std::string source, const Eigen::VectorXd& variance) {
+    if (!(variance.maxCoeff() > 0.0)) return;
+    BudgetLine line{std::move(source), 'B', {}};
+    for (std::size_t p = 0; p < n; ++p) line.u.push_back(root(variance, p));
     result.budget.push_back(std::move(line));
+  };
+  for (const StatedPart& part : base.stated) {
+    const Eigen::VectorXd variance =
+        (slope * of_last(part.covariance) * slope.transpose()).diagonal();
+    from_causes -= variance;
+    add_line(part.name, variance);
   }
+  if (from_causes.maxCoeff() > rounding * joint_covariance.diagonal().maxCoeff())
+    add_line("causes that the readings cannot tell", from_causes);
   Eigen::MatrixXd at = Eigen::MatrixXd::Zero(4, 6);
   at.leftCols(4).setIdentity();
   at(0, 2) = at(1, 3) = face ? 0.0 : result.axis.axis.z_ref_mm - z_mid;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnose/geometry/linearisation_point.hpp"
@@ -24,15 +25,23 @@ CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
                        std::vector<double> effect_mm, const ObservationMask& mask,
                        const std::vector<Rejected>& masked, const FitResult* ideal = nullptr);
 
+/// What a stated influence leaves of the base, under its name in the budget.
+struct StatedPart {
+  std::string name;
+  Eigen::MatrixXd covariance;
+};
+
 /// What is known of the base of a model.
 struct BaseUncertainty {
-  Eigen::MatrixXd within;   ///< covariance by the noise
-  Eigen::MatrixXd between;  ///< what other causes add; empty: nothing
-  double sigma_mm = 0.0;    ///< of a reading's innovation
+  Eigen::MatrixXd within;          ///< covariance by the noise
+  Eigen::MatrixXd between;         ///< what other causes add; empty: nothing
+  std::vector<StatedPart> stated;  ///< shares of `between`
+  double sigma_mm = 0.0;           ///< of a reading's innovation
   bool whitened = false;
 };
 inline BaseUncertainty uncertainty_of(const Joint& joint) {
-  return {joint.base_covariance(), {}, joint.sigma_mm, !joint.equations.autoregression().empty()};
+  return {
+      joint.base_covariance(), {}, {}, joint.sigma_mm, !joint.equations.autoregression().empty()};
 }
 
 /// The same with u of axis and parameters from the covariance of the joint fit's base, so that what

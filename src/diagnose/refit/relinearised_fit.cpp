@@ -96,11 +96,10 @@ CleanedFit RelinearisedFit::cleaned(std::vector<double> taken_off_mm) const {
                      ideal_.problem.mask, ideal_.masked, moved_ ? nullptr : &ideal_.fit);
 }
 
-FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, const Eigen::MatrixXd& within,
-                                   const Eigen::MatrixXd& between) const {
+FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, BaseUncertainty base) const {
   const LinearisationPoint& point = problem_->point;
-  BaseUncertainty base = uncertainty_of(*joint_);
-  base.within = within, base.between = between;
+  const BaseUncertainty named = uncertainty_of(*joint_);
+  base.sigma_mm = named.sigma_mm, base.whitened = named.whitened;
   if (shift.isZero(0.0)) return extended_fit(cleaned_, point, base);
   // Readings of which the surface with that base is the best one.
   std::vector<double> moved = taken_off_mm();
@@ -197,8 +196,10 @@ std::unique_ptr<RelinearisedFit> relinearise(const IdealModel& ideal, Model& mod
     const Effect* effect = model.terms[t].effect;
     if (!effect || effect->second_order_twin.empty()) continue;
     Model other = model;
-    other.terms[t] =
-        of_effect(std::string(effect->second_order_twin).c_str(), {.time_constant_s = 0.0});
+    const auto twin =
+        std::ranges::find(ideal.problem.effects, effect->second_order_twin, &Effect::id);
+    expects(twin != ideal.problem.effects.end(), "a twin is a cause of the same streams");
+    other.terms[t] = of_effect(**twin, {.time_constant_s = 0.0});
     auto rival = std::make_unique<RelinearisedFit>(ideal, other);
     if (!size_prior(other.terms[t]).allows(rival->joint().of(t))) continue;  // a lag that leads
     const auto rows = static_cast<double>(best->joint().equations.count());

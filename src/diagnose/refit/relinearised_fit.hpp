@@ -34,9 +34,9 @@ class RelinearisedFit {
   FitResult take_named() {
     return extended_fit(std::move(cleaned_), problem_->point, uncertainty_of(*joint_));
   }
-  /// The surface whose base is off that of the named model, with covariances of its own.
-  FitResult shifted(const Eigen::VectorXd& shift, const Eigen::MatrixXd& within,
-                    const Eigen::MatrixXd& between) const;
+  /// The surface whose base is off that of the named model, with covariances of its own, but for
+  /// the noise of a reading.
+  FitResult shifted(const Eigen::VectorXd& shift, BaseUncertainty base) const;
 
  private:
   void relinearise(const Model& model);

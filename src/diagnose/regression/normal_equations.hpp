@@ -23,15 +23,18 @@ inline bool is_of(const Effect& effect, const BaseKind& base) {
   return effect.needs.stream.value_or(base.stream()) == base.stream();
 }
 
-/// The effects that may be causes: those of the catalogue, then a user's own; no checks, and none
-/// that such a stream has not.
+/// The effects that may be causes: those of the catalogue, each as `own` has it if it does, then
+/// what else is a user's own; no checks, and none that such a stream has not.
 inline std::vector<const Effect*> possible_causes(const BaseKind& base,
                                                   std::span<const Effect> own = {}) {
   std::vector<const Effect*> list;
   for (const std::span<const Effect> some : {effect_catalogue(), own})
-    for (const Effect& effect : some)
-      if (!std::holds_alternative<std::monostate>(effect.term) && is_of(effect, base))
-        list.push_back(&effect);
+    for (const Effect& effect : some) {
+      const Effect* used = find_effect(effect.id, own);
+      if (!std::holds_alternative<std::monostate>(effect.term) && is_of(effect, base) &&
+          std::ranges::find(list, used) == list.end())
+        list.push_back(used);
+    }
   return list;
 }
 

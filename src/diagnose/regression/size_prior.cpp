@@ -7,6 +7,9 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+constexpr double wrong_statement = 1e-3;  // how often what is stated of a machine is wrong
+constexpr double exact = 1e-6;            // of the median: a statement of u = 0
+
 struct Range {
   double median = 0.0, spread = spread_of_size(0.0);
   double most = 1e300;
@@ -53,6 +56,16 @@ SizePrior size_prior(const Hypothesis& h) {
     out.spread = std::max(out.spread, range.spread);
   }
   out.spread *= h.effect->size_spread;
+  if (h.effect->stated && count == 1 && out.median(0) > 0.0) {
+    out.stated = std::max(h.effect->stated->u / out.median(0), exact);
+    out.doubt = wrong_statement;
+  }
+  return out;
+}
+
+SizePrior stated_prior(const Hypothesis& h) {
+  SizePrior out = size_prior(h);
+  if (out.stated > 0.0) out.doubt = 0.0;
   return out;
 }
 

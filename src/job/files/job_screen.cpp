@@ -42,7 +42,8 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
   if (i < result.forms.size() && (room || !result.forms[i].judgements.empty()))
     text += part_form_screen(result.forms[i], result.fits.size() > 1 ? name : "");
   if (!result.job.target)
-    return text + seat_axis_screen(result, i) + (diagnosis ? unseen_screen(*diagnosis) : "");
+    return text + seat_axis_screen(result, i) +
+           (diagnosis ? unseen_screen(*diagnosis) + limit_screen(*diagnosis) : "");
   if (result.fits.size() == 1 && !result.correction) text += axis_screen(fit);
   return text;
 }

@@ -11,6 +11,7 @@
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
+#include "job/files/influences_toml.hpp"
 #include "job/files/job_toml_parts.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
@@ -30,16 +31,7 @@ Sensor read_sensor(TomlTable table) {
   Sensor sensor;
   sensor.ball_radius_mm = table.number("ball_radius_mm", 0.0, Range::non_negative());
   sensor.noise_mm = table.maybe_number("noise_mm", Range::non_negative());
-  const std::pair<const char*, Influence::Kind> influences[] = {
-      {"u_height_mm", Influence::Kind::probe_height},
-      {"u_gain", Influence::Kind::probe_gain},
-      {"u_c_rad", Influence::Kind::c_offset},
-      {"u_z_mm", Influence::Kind::z_offset},
-      {"u_ball_radius_mm", Influence::Kind::ball_radius}};
-  for (const auto& [key, kind] : influences) {
-    if (const auto u = table.maybe_number(key, Range::non_negative()))
-      sensor.influences.push_back({kind, *u});
-  }
+  sensor.influences = read_influences(table);
   return sensor;
 }
 

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/explain/axis_interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "math/linear_algebra.hpp"
+#include "math/normal_mixture.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr double level = 0.9545;      // of ±2 σ of a normal law
+constexpr double least_share = 1e-3;  // of u²: smaller sources count as normal
+constexpr double least_noise = 1e-3;  // of u, where the readings have none
+
+/// A direction of the axis at an end, as a row: its product with the base is the axis there.
+struct Direction {
+  Eigen::VectorXd row;
+  double variance(const Eigen::MatrixXd& covariance) const {
+    return std::max(0.0, row.dot(covariance * row));
+  }
+};
+
+/// The worse direction at −1 or 1 of the probed length.
+Direction worse_at(const LinearisationPoint& point, double end, const Eigen::MatrixXd& covariance) {
+  const auto per = static_cast<Eigen::Index>(point.base.per_axis());
+  const auto from = static_cast<Eigen::Index>(point.base.axes - 1) * per;
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(2, covariance.rows());
+  at(0, from) = at(1, from + 1) = 1.0;
+  if (point.base.tilts) at(0, from + 2) = at(1, from + 3) = end * point.z_half_mm;
+  const auto [values, vectors] = linear::spectrum(at * covariance * at.transpose());
+  return {at.transpose() * vectors.col(1)};
+}
+
+/// What the causes may add at most for 2 u to be the interval, over what they add.
+double scale_at(const Direction& along, const AveragedAxis& average) {
+  const double of_noise = along.variance(average.within),
+               of_causes = along.variance(average.between), whole = of_noise + of_causes;
+  if (!(of_causes > least_share * whole)) return 1.0;
+  double normal = whole;
+  std::vector<NormalMixture> mixtures;
+  for (const AveragedAxis::Source& source : average.sources) {
+    const double own = along.variance(source.covariance);
+    if (own < least_share * whole) continue;
+    normal -= own;
+    NormalMixture& mixture = mixtures.emplace_back();
+    for (const Alternative& one : source.law)
+      mixture.push_back(
+          {one.probability, along.row.dot(one.off), std::sqrt(along.variance(one.covariance))});
+  }
+  const double sd = std::sqrt(std::max(normal, least_noise * least_noise * whole));
+  const double u = 0.5 * central_quantile(sd, mixtures, level);
+  return std::max(0.0, u * u - of_noise) / of_causes;
+}
+
+}  // namespace
+
+void set_interval(const LinearisationPoint& point, AveragedAxis& average) {
+  if (average.sources.empty()) return;
+  const Eigen::MatrixXd whole = average.within + average.between;
+  const double scale = std::max(scale_at(worse_at(point, -1.0, whole), average),
+                                scale_at(worse_at(point, 1.0, whole), average));
+  average.between *= scale;
+  for (AveragedAxis::Source& source : average.sources) source.covariance *= scale;
+}
+
+std::vector<AxisLimit> limits_of(const LinearisationPoint& point, const AveragedAxis& average) {
+  std::vector<AxisLimit> out;
+  const Eigen::MatrixXd whole = average.within + average.between;
+  const double u_mm = axis_uncertainty(point, whole).u_mm;
+  const auto tell = [&](std::string effect, std::string instead_of, const Eigen::MatrixXd& part) {
+    const double left_mm = axis_uncertainty(point, whole - part).u_mm;
+    const double share = u_mm > 0.0 ? 1.0 - std::pow(left_mm / u_mm, 2) : 0.0;
+    if (share > least_share) out.push_back({std::move(effect), std::move(instead_of), share});
+  };
+  tell("", "", average.within);
+  for (const AveragedAxis::Source& source : average.sources)
+    tell(source.effect ? std::string(source.effect->id) : "", source.instead_of, source.covariance);
+  std::ranges::stable_sort(out, std::greater{}, &AxisLimit::share);
+  return out;
+}
+
+}  // namespace trueaxis::diagnose_detail
