@@ -127,6 +127,7 @@ struct MachineDiagnosis : Conclusion {
   ErrorModel errors;
   std::vector<MachineFinding> findings;  ///< the most significant first
   std::vector<MachineUnexplained> unexplained;
+  /// What is found in less than nine of ten such measurements at its typical size.
   std::vector<MachineNotObservable> not_observable;
   std::vector<MachineEffect> effects;  ///< the catalogue of what was looked for
   std::vector<MachinePlan> plans;
@@ -149,6 +150,7 @@ struct MachineDiagnoseOptions {
   double false_alarm = 0.01;  ///< per measurement, over all hypotheses
   std::size_t max_findings = 6;
   double typical_length_mm = 0.01, typical_angle_rad = 50e-6;  ///< that must be seen
+  double planned_noise_mm = 1e-3;                              ///< σ of a reading of a first plan
   bool covariances = false;  ///< of what a program's tip depends on, with every plan
   /// Effects beside the catalogue that may be found too, ids of their own.
   std::span<const MachineEffect> own_effects = {};
@@ -160,8 +162,8 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
                                   const MachineDiagnoseOptions& options = {});
 
 /// The plan of a machine that was not measured yet: a ball at a grid of rotary positions and back
-/// (plan B1, 1 µm), what it does not show, and what would. @throws InputError for a machine without
-/// a rotary axis or three linear ones
+/// (plan B1, readings of the planned noise), what it does not show, and what would. @throws
+/// InputError for a machine without a rotary axis or three linear ones
 MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptions& options = {});
 
 }  // namespace trueaxis

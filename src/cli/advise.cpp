@@ -107,10 +107,13 @@ bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
   const bool machine = !options.machine.machine.machine.empty();
   if (!machine && options.data.empty()) throw CLI::RequiredError("stream");
   if (machine) {
-    expect_only(command,
-                {"stream", "--machine", "--errors", "--sign", "--large-errors", "--program",
-                 "--json", "--output", "--force", "--false-alarm", "--check", "--verbose"},
-                "is of a stream: --machine has none");
+    expect_only(
+        command,
+        {"stream", "--machine", "--errors", "--sign", "--large-errors", "--program", "--json",
+         "--output", "--force", "--false-alarm", "--check", "--verbose", "--noise"},
+        "is of a stream: --machine has none");
+    if (!options.data.empty())
+      expect_none(command, {"--noise"}, "is of a first plan: a measurement states its own");
   } else {
     expect_one_stream(command, options.data.size());
     expect_none(command, {"--json", "--force"}, "is of a machine: name it with --machine");
@@ -148,6 +151,7 @@ void add_advise(CLI::App& app, int& exit_code) {
       options->machine.false_alarm = options->false_alarm;
       options->machine.verbose = options->verbose;
       options->machine.check = options->check;
+      options->machine.noise_um = options->association.noise_um;
       exit_code = options->machine.advise(options->results);
       return;
     }

@@ -61,6 +61,7 @@ Said said_of(const MachineDiagnosed& run, const Read& read) {
   options.calibration.errors = read.given.errors;
   options.false_alarm = run.false_alarm;
   options.covariances = !run.program.empty();
+  if (run.noise_um > 0.0) options.planned_noise_mm = run.noise_um * mm_per_um;
   if (run.data.empty()) {
     out.found = plan_machine(machine, options);
   } else {

@@ -16,6 +16,7 @@ struct MachineDiagnosed {
   std::vector<std::string> data;  ///< measurements; none: a plan before any
   std::string program;            ///< a part on which the harm is weighed
   double false_alarm = 0.01;
+  double noise_um = -1.0;  ///< of a first plan's readings; below 0: as usual
   bool verbose = false, check = false;
 
   void add_to(CLI::App& command);

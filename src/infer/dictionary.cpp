@@ -29,8 +29,6 @@ Dictionary::Dictionary(const std::vector<Hypothesis>& hypotheses, const Eigen::M
     Block block;
     block.name = one.name;
     block.back = Eigen::MatrixXd::Zero(q, q);
-    block.information = eigen.values.sum() / static_cast<double>(q);
-    block.weakest = std::max(0.0, eigen.values[0]);
     block.largest = one.largest, block.tests = one.tests;
     block.pattern = one.pattern, block.barred = one.barred;
     std::vector<double> medians;

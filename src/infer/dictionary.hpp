@@ -29,9 +29,7 @@ class Dictionary {
   struct Block {
     std::string name;
     Columns columns;
-    Eigen::MatrixXd back;      ///< coefficients of the term from those of its orthonormal columns
-    double information = 0.0;  ///< mean of |column|² per unit², over σ²
-    double weakest = 0.0;      ///< of the direction that is seen least
+    Eigen::MatrixXd back;  ///< coefficients of the term from those of its orthonormal columns
     double largest = 1.0, tests = 1.0;
     bool pattern = false, barred = false;
     SizePrior prior{};  ///< of the coefficients of the orthonormal columns

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "infer/stepwise.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::infer {
 namespace {
@@ -147,23 +148,33 @@ Class class_of(const Dictionary& dictionary, const Set& set, std::size_t at) {
       causes, all.rss / freedom, freedom);
 }
 
-double Detection::detectable_size(std::size_t term) const {
+double Detection::lambda(std::size_t term) const {
   const Dictionary::Block& block = dictionary_.block(term);
-  const std::size_t rank = block.columns.size();
-  if (rank == 0 || !(block.information > 0.0)) return std::numeric_limits<double>::infinity();
-  if (half_lambda_.size() <= rank) half_lambda_.resize(rank + 1, 0.0);
-  if (half_lambda_[rank] == 0.0)
-    half_lambda_[rank] = required_lambda(
-        static_cast<double>(rank), static_cast<double>(dictionary_.rows() - rank), level_, 0.5);
-  return std::sqrt(half_lambda_[rank] * variance_ / block.information);
+  const auto rank = static_cast<Eigen::Index>(block.columns.size());
+  if (rank == 0 || rank < block.back.rows()) return 0.0;
+  // Orthonormal columns are those of the term times its own axes over their lengths.
+  const Eigen::VectorXd length = block.back.colwise().norm().cwiseInverse();
+  const Eigen::MatrixXd left =
+      length.asDiagonal() * beside_.gram(block.columns, block.columns) * length.asDiagonal();
+  return std::max(0.0, linear::eigenvalues(left).minCoeff()) / variance_;
 }
 
-double Detection::surely(std::size_t term, double size) const {
-  const Dictionary::Block& block = dictionary_.block(term);
-  const std::size_t rank = block.columns.size();
-  if (static_cast<Eigen::Index>(rank) < block.back.rows() || !(block.weakest > 0.0)) return level_;
-  return detection_power(size * size * block.weakest / variance_, static_cast<double>(rank),
-                         static_cast<double>(dictionary_.rows() - rank), level_);
+double Detection::detectable_size(std::size_t term) const {
+  const double one = lambda(term);
+  if (!(one > 0.0)) return std::numeric_limits<double>::infinity();
+  const std::size_t rank = dictionary_.block(term).columns.size();
+  if (half_lambda_.size() <= rank) half_lambda_.resize(rank + 1, 0.0);
+  if (half_lambda_[rank] == 0.0)
+    half_lambda_[rank] = required_lambda(static_cast<double>(rank),
+                                         freedom_ - static_cast<double>(rank), level_, 0.5);
+  return std::sqrt(half_lambda_[rank] / one);
+}
+
+double Detection::power(std::size_t term, double size) const {
+  const double one = lambda(term);
+  if (!(one > 0.0)) return level_;
+  const auto rank = static_cast<double>(dictionary_.block(term).columns.size());
+  return detection_power(size * size * one, rank, freedom_ - rank, level_);
 }
 
 }  // namespace trueaxis::infer

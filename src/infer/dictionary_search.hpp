@@ -36,23 +36,31 @@ Dictionary::Set search(const Dictionary& dictionary, const SearchOptions& option
 /// The other effects of a dictionary that the data do not tell from one of a set (Eqs. 87-93).
 Class class_of(const Dictionary& dictionary, const Dictionary::Set& set, std::size_t at);
 
-/// What tests of the noncentral F distribution find in data (Eq. 182).
+/// What tests of the noncentral F distribution find of a term beside others, in the phase that
+/// shows it least (Eq. 182).
 class Detection {
  public:
+  /// @param found what is fitted beside the base
   /// @param variance of a residual over its σ
-  Detection(const Dictionary& dictionary, double variance, const SearchOptions& options)
+  Detection(const Dictionary& dictionary, const Dictionary::Set& found, double variance,
+            const SearchOptions& options)
       : dictionary_(dictionary),
+        beside_(dictionary.beside(found)),
         variance_(variance),
+        freedom_(static_cast<double>(dictionary.rows() - beside_.rank)),
         level_(options.effects().single_level(options.false_alarm)) {}
 
-  /// Size of a term that is found with power one half; infinite: none is.
+  /// λ at size 1.
+  double lambda(std::size_t term) const;
+  /// Size that is found with power one half; infinite: none is.
   double detectable_size(std::size_t term) const;
-  /// Power at a size in the phase that is seen least.
-  double surely(std::size_t term, double size) const;
+  /// Power at a size.
+  double power(std::size_t term, double size) const;
 
  private:
   const Dictionary& dictionary_;
-  double variance_, level_;
+  Projection beside_;
+  double variance_, freedom_, level_;
   mutable std::vector<double> half_lambda_;  ///< λ of power one half, for a rank each
 };
 

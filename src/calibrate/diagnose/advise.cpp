@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "calibrate/diagnose/catalogue.hpp"
@@ -19,7 +20,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double weight_of_hidden = 0.1;  // an effect that is merely looked for, beside a class
+constexpr double weight_of_hidden = 0.1;   // an effect that is merely looked for, beside a class
+constexpr double may_be_determined = 0.7;  // σ (Eq. 174), where it is 1 of rows that were read
 
 double typical(const Term& term, const MachineDiagnoseOptions& options) {
   return term.angle() ? options.typical_angle_rad : options.typical_length_mm;
@@ -31,9 +33,19 @@ struct Hidden {
   double power = 0.0;
 };
 
+/// Whether a term was found, or is of the class of a finding, which names it.
+bool is_stated(const Questions& q, const std::vector<Term>& terms, const std::string& effect,
+               const MachineDiagnosis& out) {
+  return std::ranges::any_of(q.found, [&](std::size_t t) { return terms[t].effect() == effect; }) ||
+         std::ranges::any_of(out.findings, [&](const MachineFinding& finding) {
+           return std::ranges::find(finding.rivals, effect, &Rival::effect) != finding.rivals.end();
+         });
+}
+
 std::vector<Hidden> add_hidden(const Questions& q, const infer::Dictionary& dictionary,
                                const std::vector<Term>& terms, MachineDiagnosis& out) {
-  const infer::Detection detection(dictionary, q.variance, q.search);
+  const infer::Detection alone(dictionary, {}, q.variance, q.search),
+      detection(dictionary, q.found, q.variance, q.search);
   std::vector<Hidden> hidden;
   const auto add = [&](MachineNotObservable one, double power) {
     hidden.push_back({out.not_observable.size(), power});
@@ -42,17 +54,23 @@ std::vector<Hidden> add_hidden(const Questions& q, const infer::Dictionary& dict
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const Term& term = terms[t];
     if (term.is_pattern() || term.is_slip()) continue;
+    const double wanted = typical(term, q.options), power = detection.power(t, wanted);
+    if (power >= infer::found_for_sure || is_stated(q, terms, term.effect(), out)) continue;
     const double size = detection.detectable_size(t);
-    if (size <= typical(term, q.options)) continue;
     const infer::Dictionary::Block& block = dictionary.block(t);
-    const char* const why = block.columns.empty()
-                                ? "what is always fitted takes it up at these positions"
-                                : "these positions show it less than the noise does";
+    const char* const why =
+        block.columns.empty() ? "what is always fitted takes it up at these positions"
+        : !(alone.lambda(t) > 0.0)
+            ? "what is always fitted takes up a part of it at these positions"
+        : alone.power(t, wanted) >= infer::found_for_sure
+            ? "what was found takes it up at these positions"
+        : size > wanted ? "these positions show it less than the noise does"
+                        : "these positions miss it in more than one of ten measurements";
     // The size that could hide: what is found with power one half, or the largest plausible one.
     add({{term.effect(), why, size, term.angle() ? "rad" : "mm", {}},
          term.errors,
          std::min(size, block.largest)},
-        detection.surely(t, typical(term, q.options)));
+        power);
   }
   for (const MachineEffect& effect : out.effects)
     if (!effect.why_not.empty())
@@ -66,10 +84,50 @@ std::vector<Hidden> add_hidden(const Questions& q, const infer::Dictionary& dict
 /// The effects that matter to the questions, as columns of the data with a plan.
 struct Extended {
   std::vector<Term> terms;
+  Set found;  ///< those of the data
   infer::Dictionary dictionary;
+  infer::SearchOptions search;
   Covariance covariance;
 };
-Extended extended(const Questions& q, const Plan& plan, const std::set<std::string>& wanted,
+
+/// The term of a cause, at its own shape where there is one; none: it has none here.
+std::optional<std::size_t> term_of_cause(const std::vector<Term>& terms,
+                                         const MachineEffect& cause) {
+  std::optional<std::size_t> first;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (terms[t].effect() != cause.id) continue;
+    if (std::ranges::equal(terms[t].of.shape, cause.shape, {}, &MachineShape::value,
+                           &MachineShape::value))
+      return t;
+    if (!first) first = t;
+  }
+  return first;
+}
+
+/// What was found in the data, among the terms of the data with a plan: a slip is added at its row.
+/// A pattern is part of no plan.
+Set found_with(const Problem& problem, const Geometry& geometry, const Questions& q,
+               const std::vector<Term>& of_data, std::vector<Term>& terms) {
+  Set found;
+  for (const std::size_t t : q.found) {
+    const Term& term = of_data[t];
+    if (term.is_slip()) {
+      const Row& from = q.fit.problem.rows[term.row];
+      const auto row = std::ranges::find_if(problem.rows, [&](const Row& one) {
+        return one.file == from.file && one.row == from.row;
+      });
+      found.push_back(terms.size());
+      terms.push_back(slip_term(problem, geometry, term.of, row->target,
+                                static_cast<std::size_t>(row - problem.rows.begin())));
+    } else if (const auto own = term_of_cause(terms, term.of)) {
+      found.push_back(*own);
+    }
+  }
+  return found;
+}
+
+Extended extended(const Questions& q, const Plan& plan, const std::vector<Term>& of_data,
+                  const std::set<std::string>& wanted,
                   const std::vector<UncertainParameter>& uncertain) {
   const Problem problem = make_problem(*q.fit.problem.machine, plan.data, q.fit.given);
   const Geometry geometry = geometry_of(problem, q.fit.given, problem.start);
@@ -78,25 +136,23 @@ Extended extended(const Questions& q, const Plan& plan, const std::set<std::stri
   std::vector<MachineEffect> catalogue = machine_effects(problem, timed, q.options.own_effects);
   std::erase_if(catalogue, [&](const MachineEffect& one) { return !wanted.contains(one.id); });
   std::vector<Term> terms = effect_terms(problem, geometry, catalogue);
+  const Set found = found_with(problem, geometry, q, of_data, terms);
   const MatrixXd all = weighted_jacobian(problem, q.fit.given, q.fit.unknowns, problem.start);
-  infer::Dictionary dictionary =
-      dictionary_of(terms, determined_columns(all, q.fit.unknowns.size()), problem.weights,
-                    q.options.calibration);
-  return {std::move(terms), std::move(dictionary),
+  infer::Dictionary dictionary = dictionary_of(terms, planned_base(all, q.fit.unknowns.size()),
+                                               problem.weights, q.options.calibration);
+  // More rows are more places of a slip, and what they show is tested then.
+  infer::SearchOptions search = q.search;
+  search.tests += static_cast<double>(plan.plan.visits.size() + catalogue.size());
+  return {std::move(terms), found, std::move(dictionary), search,
           covariance_of(q.fit, problem, geometry, all, uncertain, q.variance)};
 }
 
 /// d of a finding's prediction beside the best fit of an effect, with the data of a plan.
 double distance(const Extended& with, const MachineFinding& finding, const std::string& rival,
                 double variance) {
-  const auto of = [&](const Term& term) { return term.effect() == finding.effect(); };
-  auto own = std::ranges::find_if(with.terms, [&](const Term& term) {
-    return of(term) && std::ranges::equal(term.of.shape, finding.cause.shape, {},
-                                          &MachineShape::value, &MachineShape::value);
-  });
-  if (own == with.terms.end()) own = std::ranges::find_if(with.terms, of);
-  if (own == with.terms.end()) return 0.0;
-  const auto& block = with.dictionary.block(static_cast<std::size_t>(own - with.terms.begin()));
+  const auto own = term_of_cause(with.terms, finding.cause);
+  if (!own) return 0.0;
+  const auto& block = with.dictionary.block(*own);
   if (block.columns.empty()) return 0.0;
   VectorXd size(static_cast<Index>(finding.parameters.size()));
   for (Index k = 0; k < size.size(); ++k)
@@ -118,14 +174,14 @@ struct Outlook {
 Outlook outlook_of(const Questions& q, const Extended& with, const std::vector<Hidden>& hidden,
                    const MachineDiagnosis& out) {
   Outlook outlook;
-  const infer::Detection detection(with.dictionary, q.variance, q.search);
+  const infer::Detection detection(with.dictionary, with.found, q.variance, with.search);
   for (const Hidden& one : hidden) {
     const auto term =
         std::ranges::find(with.terms, out.not_observable[one.entry].effect, &Term::effect);
     const double power = term == with.terms.end()
                              ? 0.0
-                             : detection.surely(static_cast<std::size_t>(term - with.terms.begin()),
-                                                typical(*term, q.options));
+                             : detection.power(static_cast<std::size_t>(term - with.terms.begin()),
+                                               typical(*term, q.options));
     outlook.found.push_back(std::max(one.power, power));
   }
   for (const MachineFinding& finding : out.findings) {
@@ -177,9 +233,10 @@ void conclude(const std::vector<Hidden>& hidden, const std::vector<Outlook>& out
 
 }  // namespace
 
-MatrixXd determined_columns(const MatrixXd& all, std::size_t unknowns) {
+MatrixXd planned_base(const MatrixXd& all, std::size_t unknowns) {
   const auto count = static_cast<Index>(unknowns), places = all.cols() - count;
-  const Determined determined = determine(all.leftCols(count), all.rightCols(places));
+  const Determined determined =
+      determine(all.leftCols(count), all.rightCols(places), may_be_determined);
   MatrixXd base(all.rows(), static_cast<Index>(determined.kept.size()) + places);
   base << all(Eigen::all, determined.kept), all.rightCols(places);
   return base;
@@ -189,6 +246,8 @@ void advise(const Questions& q, const infer::Dictionary& dictionary, const std::
             MachineDiagnosis& out) {
   const std::vector<Hidden> hidden = add_hidden(q, dictionary, terms, out);
   std::set<std::string> wanted;
+  for (const std::size_t t : q.found)
+    if (!terms[t].is_pattern() && !terms[t].is_slip()) wanted.insert(terms[t].effect());
   for (const MachineNotObservable& one : out.not_observable) wanted.insert(one.effect);
   for (const MachineFinding& finding : out.findings) {
     if (finding.rivals.empty()) continue;
@@ -202,12 +261,14 @@ void advise(const Questions& q, const infer::Dictionary& dictionary, const std::
         covariance_of(q.fit, problem, geometry_of(problem, q.fit.given, problem.start),
                       weighted_jacobian(problem, q.fit.given, q.fit.unknowns, problem.start),
                       out.uncertain, q.variance);
-  } else if (wanted.empty()) {
+  } else if (hidden.empty() && std::ranges::all_of(out.findings, [](const MachineFinding& one) {
+               return one.rivals.empty();
+             })) {
     return;
   }
   std::vector<Outlook> outlooks;
   for (const Plan& plan : plans_for(q.fit.problem, q.data, q.fit.given, q.fit.problem.start)) {
-    Extended with = extended(q, plan, wanted, out.uncertain);
+    Extended with = extended(q, plan, terms, wanted, out.uncertain);
     outlooks.push_back(outlook_of(q, with, hidden, out));
     out.plans.push_back(plan.plan);
     out.plans.back().covariance = std::move(with.covariance);

@@ -177,7 +177,7 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   add_checks(*fit, *found.dictionary, found.found, timed, out);
   add_remarks(out);
   out.verdict = verdict_of(!out.findings.empty(), !out.unexplained.empty());
-  advise({*fit, data, options, found.options, found.dictionary->variance(found.found)},
+  advise({*fit, data, options, found.options, found.dictionary->variance(found.found), found.found},
          *found.dictionary, found.terms, out);
   return out;
 }

@@ -7,7 +7,7 @@ namespace trueaxis {
 
 MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptions& options) {
   using namespace calibrate_detail;
-  const auto first = first_plan(machine, options.calibration.errors);
+  const auto first = first_plan(machine, options.calibration.errors, options.planned_noise_mm);
   if (!first)
     throw InputError(machine.name,
                      "has no rotary axis, or not three linear ones: no plan of a ball follows");
@@ -28,9 +28,8 @@ MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptio
   out.effects = machine_effects(fit.problem, true, options.own_effects);
   const auto terms = effect_terms(
       fit.problem, geometry_of(fit.problem, fit.given, fit.problem.start), out.effects);
-  const infer::Dictionary dictionary =
-      dictionary_of(terms, determined_columns(all, fit.unknowns.size()), fit.problem.weights,
-                    options.calibration);
+  const infer::Dictionary dictionary = dictionary_of(terms, planned_base(all, fit.unknowns.size()),
+                                                     fit.problem.weights, options.calibration);
   const infer::SearchOptions search{options.false_alarm, dictionary.tests()};
   out.hypotheses = static_cast<std::size_t>(search.tests);
   out.threshold = search.effects().single_level(options.false_alarm);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/diagnose/plans.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -16,7 +18,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double planned_noise_mm = 1e-3;
 constexpr double seconds_a_position = 6.0, longer_tool_mm = 70.0, further_ball_mm = 60.0;
 
 /// One position of a plan, in place of a row of the data.
@@ -68,7 +69,7 @@ class Planner {
   }
 
   /// The grid and back from nothing but a ball's place.
-  Plan from_nothing() {
+  Plan from_nothing(double noise_mm) {
     auto grid = rotary_grid();
     for (Position& one : grid) one.apart = Vector3d::Zero();
     grid = followed(grid);
@@ -77,11 +78,13 @@ class Planner {
     data_.clear();
     data_.emplace_back();
     data_.front().source = "plan B1";
-    Plan out = made(
-        "B1", "a ball at a grid of " + std::to_string(there.size()) + " rotary positions and back",
-        10.0, grid);
+    Plan out = made("B1",
+                    fmt::format("a ball at a grid of {} rotary positions and back, read with a "
+                                "noise of {:.3g} µm",
+                                there.size(), noise_mm / mm_per_um),
+                    10.0, grid);
     MachineMeasurement& file = out.data.front();
-    file.noise_mm = planned_noise_mm;
+    file.noise_mm = noise_mm;
     for (std::size_t i = 0; i < file.rows(); ++i)
       file.time_s.push_back(seconds_a_position * static_cast<double>(i));
     return out;
@@ -200,7 +203,7 @@ class Planner {
 
 }  // namespace
 
-std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors) {
+std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors, double noise_mm) {
   if (machine.linear_count() != 3 || machine.rotary_count() == 0) return std::nullopt;
   // Where the grid's ball stands: 80 mm off the line of the first rotary axis and 60 mm up along
   // it.
@@ -226,7 +229,7 @@ std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors)
         rigid::array(ends.workpiece * ball - ends.tool * model.compiled().tip(setting)));
   }
   const Problem problem = make_problem(machine, std::span(&seed, 1), errors);
-  return Planner(problem, std::span(&seed, 1), errors, problem.start).from_nothing();
+  return Planner(problem, std::span(&seed, 1), errors, problem.start).from_nothing(noise_mm);
 }
 
 std::vector<Plan> plans_for(const Problem& problem, std::span<const MachineMeasurement> data,

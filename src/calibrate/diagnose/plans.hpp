@@ -20,7 +20,7 @@ std::vector<Plan> plans_for(const Problem& problem, std::span<const MachineMeasu
                             const ErrorModel& errors, const Eigen::VectorXd& places);
 
 /// B1: a ball on the workpiece's body at a grid of rotary positions and back; nothing for a machine
-/// that cannot.
-std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors);
+/// that cannot. @param noise_mm σ of a reading
+std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors, double noise_mm);
 
 }  // namespace trueaxis::calibrate_detail

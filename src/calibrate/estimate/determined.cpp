@@ -14,7 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double tells = 1.0;       // σ
 constexpr double takes_part = 0.1;  // of the largest member
 constexpr double rank_of_places = 1e-9;
 
@@ -49,7 +48,7 @@ MatrixXd columns(const MatrixXd& of, const std::vector<std::size_t>& which) {
 
 /// Which of the kept unknowns make up the column of a held one, and whether the places do.
 void explain(Held& held, const MatrixXd& unknowns, const MatrixXd& places,
-             const std::vector<std::size_t>& kept) {
+             const std::vector<std::size_t>& kept, double tells) {
   MatrixXd all(unknowns.rows(), places.cols() + static_cast<Index>(kept.size()));
   all << places, columns(unknowns, kept);
   const VectorXd column = unknowns.col(static_cast<Index>(held.unknown));
@@ -71,7 +70,7 @@ double weakest(const MatrixXd& beside_places, VectorXd& direction) {
 
 }  // namespace
 
-Determined determine(const MatrixXd& unknowns, const MatrixXd& places) {
+Determined determine(const MatrixXd& unknowns, const MatrixXd& places, double tells) {
   Determined out;
   Basis basis(places, unknowns.cols());
   const Basis of_places = basis;
@@ -99,7 +98,7 @@ Determined determine(const MatrixXd& unknowns, const MatrixXd& places) {
     out.held.push_back(
         {unknown, {}, false, unknowns.col(static_cast<Index>(unknown)).norm(), effect});
   }
-  for (Held& held : out.held) explain(held, unknowns, places, out.kept);
+  for (Held& held : out.held) explain(held, unknowns, places, out.kept, tells);
   std::ranges::sort(out.held, {}, &Held::unknown);
   return out;
 }

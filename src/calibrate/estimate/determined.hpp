@@ -28,6 +28,8 @@ struct Determined {
 /// unknown that takes part in it is. The threshold is absolute: of 30 unknowns ball data tell 13 to
 /// 19, and the rest come back in second order off the nominal ball, where a relative one would let
 /// them swallow whole effects.
-Determined determine(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& places);
+/// @param tells the threshold, σ
+Determined determine(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& places,
+                     double tells = 1.0);
 
 }  // namespace trueaxis::calibrate_detail
