@@ -9,7 +9,7 @@ Effect as_stated(Effect effect, const Influence& influence) {
   effect.stated = influence;
   for (const LinearParameter& one : linear_parameters(effect.term, {}))
     for (EffectParameter& parameter : effect.parameters) {
-      if (&parameter != size_for(effect, one.name)) continue;
+      if (&parameter != size_for(effect, one)) continue;
       parameter.least -= influence.value, parameter.most -= influence.value;
     }
   return effect;

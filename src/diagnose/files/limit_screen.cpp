@@ -16,7 +16,7 @@ namespace {
 /// "up to 5 ms", of the sizes that the catalogue calls typical.
 std::string assumed(const Effect& effect) {
   for (const LinearParameter& one : linear_parameters(effect.term, {})) {
-    const EffectParameter* size = size_for(effect, one.name);
+    const EffectParameter* size = size_for(effect, one);
     if (size == nullptr || !(size->high > 0.0)) continue;
     const bool milli = size->unit == "s", micro = size->unit == "mm" && size->high < 0.1;
     const Estimate shown = at_edge({size->high, 0.0, std::string(size->unit), ""});

@@ -16,7 +16,7 @@ Range possible(Influence::Kind kind) {
       std::ranges::find(effect_catalogue(), std::optional(kind), &Effect::stated_as);
   if (effect == effect_catalogue().end()) return {};
   for (const LinearParameter& one : linear_parameters(effect->term, {}))
-    if (const EffectParameter* size = size_for(*effect, one.name))
+    if (const EffectParameter* size = size_for(*effect, one))
       return Range::between(size->least, size->most);
   return {};
 }
