@@ -77,7 +77,7 @@ std::string unseen_screen(const Diagnosis& d) {
     const double per_unit = n.axis_bias_per_unit.value, size = U_mm / per_unit;
     const Effect* effect = d.entry(n.effect);
     if (!is_never(n.detectable, n.detectable_unit) || !std::isfinite(per_unit) ||
-        is_never(size, n.detectable_unit) || (effect && effect->same_in_cut) ||
+        is_never(size, n.detectable_unit) || (effect && (effect->same_in_cut || effect->stated)) ||
         sizes.size() == most)
       continue;
     const bool milli = n.detectable_unit == "s" && size < 1.0;
