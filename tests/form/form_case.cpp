@@ -7,6 +7,7 @@
 #include <random>
 
 #include "form/true_form.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/part_form.hpp"
 
 namespace trueaxis::form_study {
@@ -116,8 +117,13 @@ Drawn draw(std::uint64_t seed, std::size_t readings) {
     out.stream.position_mm.push_back(z);
     out.stream.reading_mm.push_back(part.probed(c, z) + sigma_mm * draw.normal());
   }
-  const int carried = carried_upr(out.stream);
+  int carried = 0;
+  try {
+    carried = carried_upr(out.stream);
+  } catch (const InputError&) {  // C that ends near a whole number of degrees as if of radians
+  }
   out.high_upr = carried >= 50 ? 50.0 : carried >= 15 ? 15.0 : carried;
+  if (carried < 2) return out;
   const TrueForm truth = true_form([&](double angle, double z) { return part.radius(angle, z); },
                                    part.length_mm, out.high_upr);
   out.ront_mm = truth.ront_mm;

@@ -18,7 +18,7 @@ struct Drawn {
   bool sections = false;  ///< of angles that differ, else a helix
   double largest_um = 0.0;
   ProbeStream stream;
-  double high_upr = 15.0;
+  double high_upr = 0.0;                ///< below 2: the readings carry none
   double ront_mm = 0.0, cylt_mm = 0.0;  ///< the truth, filtered
 };
 

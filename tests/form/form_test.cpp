@@ -7,10 +7,10 @@
 namespace trueaxis::form_study {
 namespace {
 
-// Of 80 intervals that hold 93 in 100 truths, fewer than 66 hold less often than once in 10⁴
-// seeds; of 80 that hold 75, more than 66 do in less than 5 of 100.
+// Of 80 intervals that hold 93 in 100 truths, fewer than 65 hold in 1.2 of 10⁴ seeds; of 80 that
+// hold 75, at least 65 do in 12 of 100.
 TEST(FormStudy, IntervalsHoldTheTruth) {
-  constexpr int cases = 80, fewest = 66;
+  constexpr int cases = 80, fewest = 65;
   int ront = 0, cylt = 0, bounds = 0;
   for (int k = 0; k < cases; ++k) {
     const Drawn one = draw(970'000 + static_cast<std::uint64_t>(k), 900);
