@@ -85,6 +85,7 @@ struct AxisReadOut {
   std::vector<Estimate> polynomial;  ///< Legendre coefficients over the range, degree 0 first
   double low = 0.0, high = 0.0;      ///< range of the commanded positions
   double rms_before = 0.0, rms_after = 0.0;
+  double noise = 0.0;  ///< σ of a reading as the residuals show it, mm or rad
 };
 
 struct CalibrationOptions {
@@ -112,6 +113,7 @@ struct Calibration {
   std::vector<AxisReadOut> read_outs;
   ErrorModel errors;  ///< given and found together, component errors too, with their covariance
   std::size_t equations = 0, unknowns = 0;
+  /// Of balls, bars and arrays; where there are none, of the read-outs of linear axes.
   double rms_before_mm = 0.0, rms_after_mm = 0.0;
   double rms_parameters_mm = 0.0;  ///< with the parameters alone, without component errors
   double noise_mm = 0.0;           ///< σ of one number that u is made of

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
 
@@ -10,6 +12,7 @@
 #include "format/notes.hpp"
 #include "format/outputs.hpp"
 #include "machine/files/errors_files.hpp"
+#include "machine/sampled_errors.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
@@ -53,6 +56,17 @@ std::string converted(const ErrorsArguments& options, const Machine& machine,
                                  : etalon_text(errors, machine, *sign, options.points);
 }
 
+/// What a table of this many points loses.
+std::string loss_line(const ErrorsArguments& options, const Machine& machine,
+                      const ErrorModel& errors) {
+  const SamplingLoss loss =
+      sampling_loss(machine, errors, *sign_of(options.output_sign), options.points);
+  return fmt::format(
+      "table  {} points an axis, linear between them: at most {:.2g} µm and {:.2g} µrad off the "
+      "errors; more --points lose less\n",
+      options.points, loss.length_mm / mm_per_um, 1e6 * loss.angle_rad);
+}
+
 int execute(const ErrorsArguments& options) {
   const Results& results = options.results;
   if (options.format != "toml" && results.asked("--output") && options.output_sign.empty())
@@ -72,7 +86,11 @@ int execute(const ErrorsArguments& options) {
   results.write(outputs, "--output", [&] { return converted(options, file.machine, errors); });
   outputs.commit();
   if (!results.printed())
-    std::cout << errors_text(file.machine, errors, at) << notes_screen(remarks);
+    std::cout << errors_text(file.machine, errors, at)
+              << (options.format != "toml" && results.asked("--output")
+                      ? loss_line(options, file.machine, errors)
+                      : "")
+              << notes_screen(remarks);
   return done;
 }
 

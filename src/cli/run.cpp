@@ -14,6 +14,7 @@
 #include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
+#include "job/datum_axes.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/files/job_words.hpp"
@@ -74,6 +75,8 @@ int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {
   if (options.check) {
     name_job_files(outputs, file, options.folder);
     all_of({read, [&] { outputs.check(); }});
+    for (std::size_t i = 0; i < streams.size(); ++i)
+      expect_associable(job.references[i], streams[i]);
     return checked(outputs, job_plan_text(job, streams, surface_known));
   }
   read();

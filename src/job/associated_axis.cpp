@@ -79,18 +79,21 @@ class AxisDifference {
 
 }  // namespace
 
+void expect_associable(const JobReference& reference, const ProbeStream& stream) {
+  if (reference.association.value_or(Criterion::gaussian) == Criterion::gaussian) return;
+  const bool gauge = stream.indication == Indication::relative;
+  if (gauge || list_set_ups(stream).size() > 1)
+    throw Refusal(fmt::format(
+        "the association of {} takes positions of one set-up, and {}: leave `association` out, or "
+        "give it a stream of X_M",
+        reference.name, gauge ? "its stream is a gauge's" : "there are several"));
+}
+
 std::optional<AxisEstimate> associated_difference(const PlannedJob& result, std::size_t reference) {
   const auto& association = result.job.references[reference].association;
   if (!association || *association == Criterion::gaussian) return {};
   if (fit_used(result, reference).status != FitStatus::converged) return {};
-  const ProbeStream& stream = result.streams[reference];
-  if (stream.indication == Indication::relative || list_set_ups(stream).size() > 1)
-    throw Refusal(fmt::format(
-        "the association of {} takes positions of one set-up, and {}: leave `association` out, or "
-        "give it a stream of X_M",
-        result.job.references[reference].name,
-        stream.indication == Indication::relative ? "its stream is a gauge's"
-                                                  : "there are several"));
+  expect_associable(result.job.references[reference], result.streams[reference]);
   return AxisDifference(result, reference).estimate();
 }
 

@@ -23,6 +23,9 @@ std::vector<Point3> datum_points(const PlannedJob& result, std::size_t reference
 DatumAxis datum_axis(std::span<const Point3> points_mm, Element element, Criterion criterion,
                      bool bore);
 
+/// @throws Refusal if the association of a reference cannot take its stream
+void expect_associable(const JobReference& reference, const ProbeStream& stream);
+
 /// By how much the axis of a reference's `association` is off that of least squares, from the same
 /// readings, with the covariance that their noise gives this difference (Eq. 303), at z_ref of the
 /// fit used. Nothing where the job states none, or least squares.

@@ -58,6 +58,26 @@ void invert(std::array<double, 6>& e) {
 
 }  // namespace
 
+SamplingLoss sampling_loss(const Machine& machine, const ErrorModel& errors, ErrorSign sign,
+                           int points) {
+  const auto table = sample_components(machine, errors, sign, points);
+  const auto fine = sample_components(machine, errors, sign, 16 * (points - 1) + 1);
+  SamplingLoss loss;
+  for (std::size_t a = 0; a < fine.size(); ++a)
+    for (std::size_t d = 0; d < 6; ++d) {
+      if (fine[a].values[d].empty()) continue;
+      const std::vector<double>& written = table[a].values[d];
+      const TableError linear{
+          table[a].positions,
+          written.empty() ? std::vector(table[a].positions.size(), 0.0) : written, false};
+      double& most = d < 3 ? loss.length_mm : loss.angle_rad;
+      for (std::size_t i = 0; i < fine[a].positions.size(); ++i)
+        most =
+            std::max(most, std::abs(fine[a].values[d][i] - value_at(linear, fine[a].positions[i])));
+    }
+  return loss;
+}
+
 double location_value(const ErrorModel& errors, const ErrorName& name) {
   return errors.value(name, AxisPositions{});
 }

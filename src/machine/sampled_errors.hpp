@@ -25,6 +25,13 @@ struct SampledErrors {
 std::vector<SampledErrors> sample_components(const Machine& machine, const ErrorModel& errors,
                                              ErrorSign sign, int points);
 
+/// How far such tables, linear between their positions, are off the errors at most.
+struct SamplingLoss {
+  double length_mm = 0.0, angle_rad = 0.0;
+};
+SamplingLoss sampling_loss(const Machine& machine, const ErrorModel& errors, ErrorSign sign,
+                           int points);
+
 /// The sum of the constants of a location error; 0 where there is none.
 double location_value(const ErrorModel& errors, const ErrorName& name);
 

@@ -50,6 +50,23 @@ TEST_F(CheckOption, OfALathe) {
   expect_checked("axis-bias -o bias", "effects, one at a time");
 }
 
+// A gauge's readings are no positions, which an association of points needs: `--check` refuses what
+// `run` would end with.
+TEST_F(CheckOption, RefusesTheAssociationOfAGaugeAsRunDoes) {
+  file("job.toml",
+       "[[reference]]\nname = \"seat\"\nstream = \"" + data +
+           "streams/shaft_cylinder_seat.csv\"\nsurface = \"cylinder\"\nreading = \"relative\"\n"
+           "nominal_radius_mm = 30\nassociation = \"minimum_zone\"\n"
+           "[target]\nsurface = \"cylinder\"\nradius_mm = 30\nz_start_mm = 40\n"
+           "z_end_mm = 0\n[cut]\nspeed_rpm = 600\nsense = \"+c\"\nfeed_mm_per_rev = 0.1\n");
+  const CommandStreams run = command("run job.toml -o out"),
+                       checked = command("run job.toml -o out --check");
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_TRUE(contains(run.out, "NO-GO: the association of seat takes positions")) << run.out;
+  EXPECT_EQ(checked.exit_code, 1) << checked.out;
+  EXPECT_TRUE(contains(checked.err, "the association of seat takes positions")) << checked.err;
+}
+
 TEST_F(CheckOption, OfAMachine) {
   const std::string of = data + "five_axis/";
   const std::string measured = of + "zxacy_ball.csv --machine " + of + "zxacy.toml";

@@ -123,10 +123,11 @@ TEST_F(MachineCommand, OtherMakersTablesGoThereAndBack) {
   for (const char* sign : {"moving_part", "tool_minus_workpiece"}) {
     for (const char* format : {"isg", "etalon"}) {
       const std::string name = std::string(sign) + (format[0] == 'i' ? ".csv" : ".txt");
-      ASSERT_EQ(command("errors " + machine + errors + " --points 1001 --format " + format +
-                        " --output-sign " + sign + " -o " + name)
-                    .exit_code,
-                0);
+      const CommandStreams written =
+          command("errors " + machine + errors + " --points 1001 --format " + format +
+                  " --output-sign " + sign + " -o " + name);
+      ASSERT_EQ(written.exit_code, 0);
+      EXPECT_TRUE(contains(written.out, "table  1001 points an axis")) << written.out;
       // The reference of X is none of these formats'; its errors are few: without it C turns about
       // 0 instead of z = -100, of which ECX knows nothing.
       expect_row("pose " + machine + positions + " --errors " + name + " --sign " + sign, before,

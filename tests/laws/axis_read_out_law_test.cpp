@@ -9,6 +9,30 @@
 namespace trueaxis::testing {
 namespace {
 
+// σ of 200 readings beside the four numbers of a cubic is known to 1/√(2·196) = 5 %; four of these.
+TEST(AxisReadOut, AloneStatesItsRmsAndNoise) {
+  Draw draw(6);
+  const Machine machine = shop_machine("w C' A' Y' b X Z t", draw);
+  const double sigma_mm = 1e-3;
+  std::normal_distribution<double> normal(0.0, sigma_mm);
+  MachineMeasurement data;
+  data.source = "x.csv";
+  data.kind = MeasurementKind::axis;
+  data.axis = AxisName::X;
+  for (int i = 0; i < 200; ++i) {
+    AxisPositions at{};
+    at[0] = -300.0 + 3.0 * i;
+    data.axes.push_back(at);
+    data.actual.push_back(at[0] + 2e-5 * at[0] + normal(draw.engine));
+  }
+  const Calibration found = calibrate(machine, std::span(&data, 1));
+  ASSERT_EQ(found.read_outs.size(), 1U);
+  EXPECT_NEAR(found.read_outs.front().noise, sigma_mm, 0.2 * sigma_mm);
+  EXPECT_NEAR(found.noise_mm, sigma_mm, 0.2 * sigma_mm);
+  EXPECT_EQ(found.noise_basis, NoiseBasis::residuals);
+  EXPECT_NEAR(found.rms_after_mm, found.noise_mm * std::sqrt(196.0 / 200.0), 1e-9);
+}
+
 // By the test's own formula, E along the axis' direction: + where the axis carries the tool, or the
 // part under tool_minus_workpiece; − where a carriage under the part goes along.
 TEST(AxisReadOut, HasTheSignOfTheToolAgainstThePart) {

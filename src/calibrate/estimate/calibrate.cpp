@@ -135,6 +135,22 @@ void estimate_noise(std::span<const MachineMeasurement> data, const Solution& so
   }
 }
 
+/// RMS and noise of a calibration of nothing but read-outs: of all readings of linear axes.
+void summarise_read_outs(Calibration& out) {
+  double before = 0.0, after = 0.0, noise = 0.0, readings = 0.0;
+  for (const AxisReadOut& one : out.read_outs) {
+    if (is_rotary(one.axis)) continue;
+    const auto n = static_cast<double>(one.readings);
+    before += n * one.rms_before * one.rms_before, after += n * one.rms_after * one.rms_after;
+    noise += n * one.noise * one.noise, readings += n;
+  }
+  if (readings == 0.0) return;
+  out.rms_before_mm = std::sqrt(before / readings), out.rms_after_mm = std::sqrt(after / readings);
+  out.rms_parameters_mm = out.rms_after_mm;
+  out.noise_mm = std::sqrt(noise / readings);
+  out.noise_basis = NoiseBasis::residuals;
+}
+
 }  // namespace
 
 std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMeasurement> data,
@@ -200,6 +216,7 @@ Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement
   using namespace calibrate_detail;
   Calibration out = of_read_outs(machine, data, options);
   const auto fit = fit_tips(machine, data, options, true, out);
+  if (!fit) summarise_read_outs(out);
   if (!fit || !out.converged) return out;
   const Eigen::VectorXd places = take_component_errors(*fit, out);
   out.balls.clear();

@@ -270,6 +270,7 @@ AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
   const auto n = static_cast<double>(file.rows());
   out.rms_before = std::sqrt(fit.with({}, 1.0).rss / n);
   out.rms_after = std::sqrt(result.rss / n);
+  if (result.freedom > 0.0) out.noise = std::sqrt(result.rss / result.freedom);
   return out;
 }
 

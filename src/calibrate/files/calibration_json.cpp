@@ -64,7 +64,13 @@ Json read_out_json(const AxisReadOut& one) {
           {"orders", list_of(one.orders, order_json)},
           {"legendre", list_of(one.polynomial, coefficient)},
           {"rms_before", with_unit(factor * one.rms_before, unit)},
-          {"rms_after", with_unit(factor * one.rms_after, unit)}};
+          {"rms_after", with_unit(factor * one.rms_after, unit)},
+          {"noise", with_unit(factor * one.noise, unit)}};
+}
+
+/// Of a calibration that has one: read-outs of rotary axes alone have theirs each.
+Json overall(const Calibration& c, double value_mm) {
+  return c.noise_basis == NoiseBasis::none ? Json(nullptr) : with_unit(value_mm, "mm");
 }
 
 }  // namespace
@@ -87,9 +93,8 @@ std::string calibration_json(const Calibration& c, const Machine& machine,
        {"balls", list_of(c.balls, ball)},
        {"equations", c.equations},
        {"unknowns", c.unknowns},
-       {"rms",
-        {{"before", with_unit(c.rms_before_mm, "mm")}, {"after", with_unit(c.rms_after_mm, "mm")}}},
-       {"noise", {{"sigma", with_unit(c.noise_mm, "mm")}, {"source", to_string(c.noise_basis)}}},
+       {"rms", {{"before", overall(c, c.rms_before_mm)}, {"after", overall(c, c.rms_after_mm)}}},
+       {"noise", {{"sigma", overall(c, c.noise_mm)}, {"source", to_string(c.noise_basis)}}},
        {"read_outs", list_of(c.read_outs, read_out_json)}});
 }
 

@@ -49,9 +49,9 @@ std::string read_out_text(const AxisReadOut& one) {
   const bool rotary = is_rotary(one.axis);
   const double factor = rotary ? 1e6 : 1e3;
   const char* const unit = rotary ? "µrad" : "µm";
-  std::string text =
-      fmt::format("axis {}: {} readings, RMS {:.3g} -> {:.3g} {}\n", letter_of(one.axis),
-                  one.readings, factor * one.rms_before, factor * one.rms_after, unit);
+  std::string text = fmt::format("axis {}: {} readings, RMS {:.3g} -> {:.3g} {}, noise {:.3g} {}\n",
+                                 letter_of(one.axis), one.readings, factor * one.rms_before,
+                                 factor * one.rms_after, unit, factor * one.noise, unit);
   if (one.period > 0.0)
     text += fmt::format("  periodic in {:.6g} {}:", rotary ? one.period / rad_per_deg : one.period,
                         rotary ? "deg" : "mm");

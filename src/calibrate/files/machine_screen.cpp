@@ -49,8 +49,9 @@ std::string finding_screen(const MachineFinding& finding) {
 std::string read_out_screen(const AxisReadOut& one) {
   const char* const unit = is_rotary(one.axis) ? "rad" : "mm";
   std::string text =
-      fmt::format("axis   {}: {} readings, RMS {} -> {}", letter_of(one.axis), one.readings,
-                  small_size(one.rms_before, unit), small_size(one.rms_after, unit));
+      fmt::format("axis   {}: {} readings, RMS {} -> {}, noise {}", letter_of(one.axis),
+                  one.readings, small_size(one.rms_before, unit), small_size(one.rms_after, unit),
+                  small_size(one.noise, unit));
   if (one.period > 0.0)
     text += fmt::format(", {} orders periodic in {:.6g} {}", one.orders.size(),
                         is_rotary(one.axis) ? one.period / rad_per_deg : one.period,

@@ -9,6 +9,7 @@
 
 #include "base/never.hpp"
 #include "diagnose/search/causes.hpp"
+#include "diagnose/search/scan_list.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -26,6 +27,15 @@ std::string why_not(const Requirement& needs, const LinearisationPoint& point) {
   if (needs.time && !point.has_time) return "the stream has no t: give a time for every reading";
   if (needs.length && !point.has_position) return "one section shows nothing along Z";
   return "";
+}
+
+/// Whether the line of an effect can be looked for, where nothing but a scan does so.
+bool is_searched(const Effect& effect, const std::vector<Scan>& scans) {
+  using enum SpectralLine::In;
+  if (!effect.line || (effect.line->in != time && effect.line->in != slide)) return true;
+  return std::ranges::any_of(scans, [&](const Scan& scan) {
+    return !scan.pattern && scan.make(scan.high).effect == &effect;
+  });
 }
 
 double size_of(const Effect& effect, const LinearParameter& linear) {
@@ -116,6 +126,7 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
   const Columns& taken = joint.solution.columns;
   const Projection projection = project(joint.equations.total(), taken);
   const auto n = static_cast<Eigen::Index>(joint.equations.base().size());
+  const std::vector<Scan> scans = scans_of(problem);
   std::vector<Unobservable> out;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Typical& t = all[k];
@@ -132,7 +143,9 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     const Columns& own = joint.places[model.terms.size() + k];
     Unobservable h{t, {}, 0.0, 0.0};
     h.entry.effect = effect.id;
-    const std::string why = why_not(effect.needs, point);
+    std::string why = why_not(effect.needs, point);
+    if (why.empty() && !is_searched(effect, scans))
+      why = "the passes are too short or too coarse to show its wave: probe longer ones";
     const bool can = why.empty();
     const double lambda = can ? typical_lambda(projection, own, t.size, sigma_mm) : 0.0;
     h.power = can ? detection_power(lambda, std::min<std::size_t>(own.size(), 2), model.family,
