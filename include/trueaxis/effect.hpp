@@ -35,8 +35,8 @@ struct EffectParameter {
   double low = 0.0, high = 0.0;
   std::string_view meaning;
   std::string_view of = {};  ///< shape or linear parameter that it tells, where named otherwise
-  double share = 0.0;  ///< of a parameter of the shape that `high` is at most, and ten times that
-                       ///< any size; 0: any
+  /// Of `share_of`, a parameter of the shape: what `high` is at most; 0: any.
+  double share = 0.0;
   double least = -1e300, most = 1e300;  ///< of a linear one; what is beyond is no such effect
   double TermShape::*share_of = &TermShape::range_mm;
 };

@@ -126,13 +126,7 @@ std::vector<Effect> probe_response() {
        .frame = EffectFrame::probe,
        .term = Response{Response::Of::cyclic},
        .formula = "X + a cos(2 pi X/p + phi)",
-       .parameters = {{.name = "amplitude",
-                       .unit = "mm",
-                       .low = 5e-5,
-                       .high = 2e-3,
-                       .meaning = "a: 0.1-2 % of p",
-                       .share = 0.02,
-                       .share_of = &TermShape::period_mm},
+       .parameters = {{"amplitude", "mm", 5e-5, 2e-3, "a"},
                       {"period", "mm", 2e-3, 2, "p", "period_mm"},
                       {"phase", "rad", 0, 0, "phi"}},
        .signature = "many orders in phase with the eccentricity e, sized as Bessel functions of 2 "
@@ -210,6 +204,7 @@ std::vector<Effect> probe_response() {
                        {"XJ", "a jog there and back shows it"}},
        .axis_bias = AxisBias{0.64, "mm/mm", "0.64 of the play"},
        .source = "play operator (Krasnosel'skii and Pokrovskii 1989); hysteresis of ISO 463",
+       .needs = {.stream = StreamKind::lateral},
        .typical = {{&TermShape::play_mm, {0.0}}},
        .search = {.forms = {{.starts = {&TermShape::play_mm, {0.0, 5e-3}}}}},
        .refinement =

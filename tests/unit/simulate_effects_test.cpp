@@ -313,7 +313,8 @@ TEST(SimulateEffects, ZeroEffectsChangeNothingAndOthersSomething) {
              name.starts_with("dx") || name.starts_with("slope") || name.starts_with("along") ||
              name.starts_with("depth") || name.starts_with("height") || name.starts_with("rate") ||
              name.starts_with("quadratic") || name.starts_with("sagitta") || name == "angle_rad" ||
-             name == "delay_s" || name == "time_constant_s" || name == "step_mm";
+             name == "delay_s" || name == "time_constant_s" || name == "step_mm" ||
+             name == "play_mm";
     };
     const bool limits = kind.id == "probe.saturation";
     for (const LatheParameter& parameter : kind.parameters) {

@@ -12,20 +12,14 @@ constexpr double exact = 1e-6;            // of the median: a statement of u = 0
 
 struct Range {
   double median = 0.0, spread = spread_of_size(0.0);
-  double most = 1e300;
 };
-
-// A sensor or a scale that is off by ten times what is typical is broken: its reading nearly falls
-// while X grows. Other causes then explain the readings.
-constexpr double times_its_share = 10.0;
 
 Range range_of_size(const EffectParameter* p, const TermShape& shape) {
   if (!p || !(p->high > 0.0)) return {};
   const double ratio = p->low > 0.0 ? p->low / p->high : open_end;
   const double limit = p->share > 0.0 ? p->share * shape.*p->share_of : p->high;
   const double high = std::min(p->high, limit);
-  return {high * std::sqrt(ratio), spread_of_size(-std::log(ratio)),
-          p->share > 0.0 ? times_its_share * limit : p->most};
+  return {high * std::sqrt(ratio), spread_of_size(-std::log(ratio))};
 }
 
 }  // namespace
@@ -50,8 +44,8 @@ SizePrior size_prior(const Hypothesis& h) {
     const bool pair = linear.factor != LinearParameter::Factor::itself;
     out.median(j) = range.median / (pair ? std::sqrt(2.0) : 1.0);
     if (parameter) {
-      out.most(j) = range.most;
-      out.least(j) = pair || parameter->share > 0.0 ? -range.most : parameter->least;
+      out.most(j) = parameter->most;
+      out.least(j) = pair ? -parameter->most : parameter->least;
     }
     out.spread = std::max(out.spread, range.spread);
   }

@@ -21,6 +21,17 @@ int threads_of(const DiagnoseOptions& options, const ProbeStream& stream) {
   return static_cast<int>(threads_for(options.threads, stream.size()));
 }
 
+/// A part that is probed by hand stands still: nothing stays behind.
+std::vector<const Effect*> causes_of(const BaseKind& base, const Resolution& resolution,
+                                     std::span<const Effect> own) {
+  std::vector<const Effect*> list = possible_causes(base, own);
+  std::erase_if(list, [&](const Effect* effect) {
+    const auto* response = std::get_if<Response>(&effect->term);
+    return resolution.sparse && response && response->of == Response::Of::hysteresis;
+  });
+  return list;
+}
+
 /// A step below the σ of the noise is drowned: its first harmonic keeps exp(−2π²) = 3e-9 of its
 /// size.
 double rounding_that_shows(double step_mm, std::span<const double> deviation_mm) {
@@ -49,7 +60,7 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
               options.false_alarm,
               threads_of(options, measured),
               static_cast<std::size_t>(options.max_findings),
-              possible_causes(point.base, options.own_effects),
+              causes_of(point.base, resolution, options.own_effects),
               rounding_that_shows(indicated.step, deviation_mm)} {}
 
 }  // namespace trueaxis::diagnose_detail

@@ -130,15 +130,6 @@ std::vector<Candidate> one_of_each(const std::vector<Candidate>& list) {
   return out;
 }
 
-/// Of a size that cannot be: set-ups or units may be wrong. A sensor that would be broken is no
-/// such sign: a form of the part does as well.
-bool is_mistake(const Candidate& c) {
-  const Effect* effect = c.hypothesis.effect;
-  return !c.possible &&
-         !(effect && std::ranges::any_of(effect->parameters,
-                                         [](const EffectParameter& p) { return p.share > 0.0; }));
-}
-
 /// Whether it is the same step with fewer of its parameters, or with others: what no size that can
 /// be makes exactly, such as two slips, one that can be makes nearly.
 bool is_other_form(const Candidate& refused, const Candidate& c) {
@@ -361,7 +352,7 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) co
   for_each_index(2, threads, [&](std::size_t k) {
     k == 0 ? refine_some(causes, out.causes) : refine_some(patterns, out.patterns);
   });
-  const auto refused = std::ranges::find_if(out.causes, is_mistake);
+  const auto refused = std::ranges::find(out.causes, false, &Candidate::possible);
   const auto explains_it = [&](const Candidate& c) {
     return c.possible && (c.gain >= refused->gain || is_other_form(*refused, c));
   };
