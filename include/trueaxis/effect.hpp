@@ -48,6 +48,7 @@ struct Requirement {
   bool cone = false;                      ///< an angle to the axis, by which X changes along Z
   bool cylinder = false;                  ///< no half angle of the surface, which would be the same
   bool both_feeds = false;                ///< passes in +Z and in −Z
+  bool turning = false;                   ///< read while the part turns, not by hand at few angles
   std::optional<StreamKind> stream = {};  ///< what is probed, where another has no such effect
 };
 

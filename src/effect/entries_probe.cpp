@@ -205,7 +205,7 @@ std::vector<Effect> probe_response() {
                        {"XJ", "a jog there and back shows it"}},
        .axis_bias = AxisBias{0.64, "mm/mm", "0.64 of the play"},
        .source = "play operator (Krasnosel'skii and Pokrovskii 1989); hysteresis of ISO 463",
-       .needs = {.stream = StreamKind::lateral},
+       .needs = {.turning = true, .stream = StreamKind::lateral},
        .typical = {{&TermShape::play_mm, {0.0}}},
        .search = {.forms = {{.starts = {&TermShape::play_mm, {0.0, 5e-3}}}}},
        .refinement =

@@ -21,14 +21,10 @@ int threads_of(const DiagnoseOptions& options, const ProbeStream& stream) {
   return static_cast<int>(threads_for(options.threads, stream.size()));
 }
 
-/// A part that is probed by hand stands still: nothing stays behind.
 std::vector<const Effect*> causes_of(const BaseKind& base, const Resolution& resolution,
                                      std::span<const Effect> own) {
   std::vector<const Effect*> list = possible_causes(base, own);
-  std::erase_if(list, [&](const Effect* effect) {
-    const auto* response = std::get_if<Response>(&effect->term);
-    return resolution.sparse && response && response->of == Response::Of::hysteresis;
-  });
+  std::erase_if(list, [&](const Effect* e) { return e->needs.turning && resolution.sparse; });
   return list;
 }
 
