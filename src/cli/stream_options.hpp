@@ -45,8 +45,10 @@ struct StreamOptions {
                "\"X=Diameter,C=Angle(°),Z=3[mm]\"");
     add_option(command, "--skip", skip, CLI::Range(0, 1000000),
                "of another program's file: lines above its table that are passed over");
-    command.add_flag("--drop-invalid", drop_invalid,
-                     "leave out rows without a value (NaN, #N/A, empty), and list them");
+    command.add_flag(
+        "--drop-invalid", drop_invalid,
+        "exclude rows without a value (NaN, #N/A, empty) and readings at the end of the sensor's "
+        "range, and list them");
   }
 
   /// The options that take a stretch of Z alone.

@@ -163,10 +163,9 @@ std::string_view template_of(ReasonCode code) {
        "{ref}{angles::.0f} angles, the same in every revolution or nearly so, cannot tell "
        "{lobes::.0f} lobes from an eccentricity: probe at {enough::.0f} angles or more"},
       {sensor_at_limit,
-       "{ref}{count::.0f} readings stand at {limit::.6f} mm, where the sensor's range ends, and "
-       "falsify the axis: a diagnosis leaves them out, or bring the part within the range and "
-       "probe "
-       "again"},
+       "{ref}{count::.0f} readings are at {limit::.6f} mm, the end of the sensor's range, and "
+       "falsify the axis: exclude them (--drop-invalid, drop_invalid of a job), or bring the part "
+       "within the range and probe again"},
       {undiagnosed_correlated,
        "{ref}its readings are not diagnosed, and what they leave correlates"},
       {noise_over_stated,

@@ -145,9 +145,17 @@ std::optional<Reason> few_angles_in(const ProbeStream& stream, const Diagnosis&)
   return few_angles_of(stream);
 }
 
+std::optional<Reason> sensor_limit_in(const ProbeStream& stream, const Diagnosis&) {
+  return sensor_limit_of(stream);
+}
+
 constexpr Threshold of_left[] = {much_left, too_little};
 constexpr Threshold of_beats[] = {least_beats};
 constexpr Threshold of_angles[] = {least_angles, angles_apart};
+constexpr Threshold of_limit[] = {
+    {"at_limit", few_at_a_limit, "readings", "noise puts one or two at an extreme"},
+    {"at_limit", more_at_a_limit, "of the readings of any value",
+     "the extreme of a rounded stream has fewer readings than its other values"}};
 constexpr Threshold of_move[] = {{"moved", 1.0, "of U", "what is less is within it"}};
 
 constexpr Threshold of_statement[] = {{"off", refuted_by, "of its u and that of what is seen",
@@ -158,6 +166,7 @@ constinit const AxisDoubt slip_unsure{"slip_unsure", {}, slip_unsure_of};
 constinit const AxisDoubt moves_in_pass{"moves_in_pass", of_move, moved_in_pass_of};
 constinit const AxisDoubt moves_with_axis{"moves_with_axis", of_beats, moves_with_axis_of};
 constinit const AxisDoubt few_angles{"few_angles", of_angles, few_angles_in};
+constinit const AxisDoubt sensor_at_limit{"sensor_at_limit", of_limit, sensor_limit_in};
 
 Reasons find_axis_unknown(const CheckInput& in) {
   return first_diagnosed(in.job, [&](std::size_t i) {
@@ -175,7 +184,7 @@ constinit const JobCheck axis_known{
 std::span<const AxisDoubt* const> axis_doubts() {
   static constexpr std::array all{&statement_refuted,  &slip_unsure,   &left_out_at_an_end,
                                   &far_off_at_the_end, &moves_in_pass, &left_unexplained,
-                                  &moves_with_axis,    &few_angles};
+                                  &moves_with_axis,    &few_angles,    &sensor_at_limit};
   return all;
 }
 

@@ -19,7 +19,6 @@ constexpr double shown_angle_rad = two_pi / 6.0;
 constexpr double rows_by_chance = 1e-3;
 constexpr double often = 0.3;  // share of the rows
 constexpr double many_steps = 10.0;
-constexpr double few_at_a_limit = 5.0, more_at_a_limit = 12.0;  // readings; of those of any value
 constexpr double largest_machine_mm = 20e3;
 
 /// Readings in a row that show the same value.

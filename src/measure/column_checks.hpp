@@ -9,8 +9,10 @@
 
 namespace trueaxis {
 
-inline constexpr std::size_t shown_run = 8;  ///< readings that show a pattern
-inline constexpr double near_steps = 3.0;    ///< steps within which a value is where it belongs
+inline constexpr std::size_t shown_run = 8;      ///< readings that show a pattern
+inline constexpr double few_at_a_limit = 5.0;    ///< readings at an extreme that are chance
+inline constexpr double more_at_a_limit = 12.0;  ///< as above, of the readings of any value
+inline constexpr double near_steps = 3.0;        ///< steps within which a value is where it belongs
 
 /// Median of the steps from row to row; 0: a column of one row.
 double usual_step(const std::vector<double>& column);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/hundredths.hpp"
+#include "measure/kept_readings.hpp"
 #include "measure/seat_profile.hpp"
 #include "measure/seat_stretches.hpp"
 #include "trueaxis/error.hpp"
@@ -150,15 +151,6 @@ bool may_hold_seats(const ProbeStream& stream) {
          list_set_ups(stream).size() == 1 && stream.more_reading_mm.empty();
 }
 
-template <typename T>
-void keep(std::vector<T>& column, const std::vector<bool>& kept) {
-  if (column.size() != kept.size()) return;
-  std::size_t to = 0;
-  for (std::size_t i = 0; i < column.size(); ++i)
-    if (kept[i]) column[to++] = column[i];
-  column.resize(to);
-}
-
 }  // namespace
 
 bool Seats::broken() const {
@@ -215,11 +207,7 @@ ProbeStream within(const ProbeStream& stream, const ZRange& range) {
   }
   ProbeStream out = stream;
   if (inside == stream.size()) return out;
-  for (auto* column : {&out.reading_mm, &out.c_rad, &out.position_mm, &out.time_s})
-    keep(*column, kept);
-  keep(out.pass, kept);
-  keep(out.setup, kept);
-  for (auto& column : out.more_reading_mm) keep(column, kept);
+  keep_readings(out, kept);
   out.read_as.push_back(
       fmt::format("Z {}: the other {} of {} readings are excluded; row 1 of the results is row {} "
                   "of the stream",

@@ -18,11 +18,13 @@ namespace {
 constexpr double x0_mm = 0.02, radius_mm = 25.0;
 constexpr double sixfold_mm = 6.0 * 0.17e-3 * std::numbers::sqrt2 / 26.8;  // N = 720
 
-/// An even noise of ±0.3 µm from a generator of its own (Knuth's MMIX).
+/// An even noise of ±0.3 µm: SplitMix64 (Steele, Lea and Flood 2014).
 double noise_mm(int i) {
-  auto state = 0x9E3779B97F4A7C15ULL + static_cast<unsigned long long>(i);
-  for (int k = 0; k < 4; ++k) state = 6364136223846793005ULL * state + 1442695040888963407ULL;
-  return 0.6e-3 * (static_cast<double>(state >> 11U) / 9007199254740992.0 - 0.5);
+  auto z = 0x9E3779B97F4A7C15ULL * static_cast<unsigned long long>(i + 1);
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+  z ^= z >> 31U;
+  return 0.6e-3 * (static_cast<double>(z >> 11U) * 0x1p-53 - 0.5);
 }
 
 class RecordingCommand : public CommandTest {
@@ -221,6 +223,37 @@ TEST_F(RecordingCommand, AJobLeavesRowsWithoutAValueOutWhenAsked) {
   const nlohmann::json fit = result("out/result.json").at("references")[0].at("fit");
   EXPECT_EQ(fit.at("points"), 714);
   EXPECT_NEAR(x_of(fit), x0_mm, sixfold_mm);
+}
+
+// A sensor whose range ends half-way between the readings at 50 and 55 deg: 21 of 72 read its end.
+TEST_F(RecordingCommand, ReadingsAtTheEndOfTheRangeAreExcludedWhenAsked) {
+  const double end_mm = radius_mm + x0_mm * std::cos(52.5 * std::numbers::pi / 180.0);
+  shaft("flat.csv",
+        [&](int i, double x, double c, double z) { return plain(i, std::min(x, end_mm), c, z); });
+  for (const std::string typed : {"fit flat.csv --surface cylinder --json r.json --force",
+                                  "diagnose flat.csv --surface cylinder --json r.json --force",
+                                  "run flat.csv -o out --force"}) {
+    const CommandStreams refused = command(typed);
+    EXPECT_EQ(refused.exit_code, 1) << typed << refused.out;
+    EXPECT_TRUE(contains(refused.out + refused.err, "210 readings are at 25.012175 mm")) << typed;
+  }
+  double ones = 0.0, c1 = 0.0, c2 = 0.0;  // of radius and x0; y0 and the tilt are square to them
+  for (int i = 11; i <= 61; ++i) {
+    const double c = std::cos(2.0 * std::numbers::pi * i / 72.0);
+    ones += 10.0, c1 += 10.0 * c, c2 += 10.0 * c * c;
+  }
+  const double sigma_mm = 0.6e-3 / std::sqrt(12.0);
+  const double sixfold = 6.0 * sigma_mm * std::sqrt(ones / (ones * c2 - c1 * c1));
+  const CommandStreams done =
+      command("fit flat.csv --surface cylinder --drop-invalid --json r.json --force");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(result("r.json").at("points"), 510);
+  EXPECT_NEAR(x_of(result("r.json")), x0_mm, sixfold);
+  file("job.toml",
+       "[[reference]]\nstream = \"flat.csv\"\nsurface = \"cylinder\"\ndrop_invalid = true\n");
+  const CommandStreams job = command("run job.toml -o out --force");
+  EXPECT_EQ(job.exit_code, 0) << job.out << job.err;
+  EXPECT_NEAR(x_of(result("out/result.json").at("references")[0].at("fit")), x0_mm, sixfold);
 }
 
 // Half of the rows are no slip of a spreadsheet, and a decimal comma is a value.

@@ -14,6 +14,7 @@
 #include "measure/files/stream_csv_header.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_rows.hpp"
+#include "measure/kept_readings.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -89,6 +90,7 @@ class LineReader {
       diagnostics_.remedy(rows_->invalid().remedy(stream_.source, options_, {}, good));
     diagnostics_.throw_if_any();
     if (dropped) stream_.read_as.push_back(rows_->invalid().left_out());
+    if (options_.drop_invalid) leave_out_limits(stream_);
   }
 
  private:

@@ -25,8 +25,6 @@ from lathe import CASES
 
 AXIS = re.compile(r"^(?:axis  | {6}) x (-?[\d.e+-]+) µm, y (-?[\d.e+-]+) µm, U ([\d.e+-]+) µm"
                   r"(?: at Z (-?[\d.]+) mm)?$", re.M)
-# Known to be wrong: with the readings at the end of the range left out, the rest is called a sensor that bends. Off by 1.6 U.
-NO_ONE_SEES = {"probe_saturates"}
 # What fit alone does not see and diagnose and run do.
 FOR_DIAGNOSIS = {"smoothed_over_9", "play_of_10_um"}
 SECTION_MM = 8.0  # of a stream without a length
@@ -90,7 +88,7 @@ def try_one(command, entry):
             verdict, words = judge(truth, "" if what == "fit" else unseen, out, code)
             if what == "fit" and unseen and verdict == "WRONG":
                 verdict = "unseen"  # the command that it proposes says so
-            if verdict == "WRONG" and (name in NO_ONE_SEES or what == "fit" and name in FOR_DIAGNOSIS):
+            if verdict == "WRONG" and what == "fit" and name in FOR_DIAGNOSIS:
                 verdict = "left"
             if ordinary and verdict != "right":
                 verdict = "WRONG " + verdict
