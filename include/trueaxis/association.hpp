@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Association of a geometrical element with Cartesian points (ISO 17450-1, ISO 5459), in any
-/// orientation, scale and place, without starting values: docs/association.md. Points and lengths
+/// orientation, scale and place, without starting values: association.md. Points and lengths
 /// in mm, angles in rad; distances are orthogonal, positive outside (away from an axis, a centre,
 /// a tube's middle; of a plane along its normal).
 namespace trueaxis {

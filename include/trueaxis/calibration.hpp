@@ -10,7 +10,7 @@
 #include "trueaxis/machine.hpp"
 #include "trueaxis/units.hpp"
 
-/// Errors of a machine from measurements on it (docs/calibration.md). Inside mm, rad and s.
+/// Errors of a machine from measurements on it (calibration.md). Inside mm, rad and s.
 namespace trueaxis {
 
 enum class MeasurementKind {

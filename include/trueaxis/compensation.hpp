@@ -10,7 +10,7 @@
 #include "trueaxis/machine.hpp"
 
 /// A program of a control rewritten so that a machine with errors moves the tool where a machine
-/// without would (docs/nc.md).
+/// without would (docs/reference/nc.md).
 namespace trueaxis {
 
 enum class CompensationMethod {

@@ -9,7 +9,7 @@
 
 namespace trueaxis {
 
-/// The axis that another association gives the same readings (ISO 5459; docs/theory.md, Eq. 293).
+/// The axis that another association gives the same readings (ISO 5459; theory.md, Eq. 293).
 struct DatumAxis {
   Criterion criterion = Criterion::gaussian;
   bool of_iso_5459 = false;  ///< its default of 2011 for this feature

@@ -12,9 +12,9 @@
 #include "trueaxis/machine.hpp"
 
 /// Where a part is in its fixture: from six measured locators (Hong & Yeh 2020), from the errors of
-/// its own datum surfaces (Fallah & Arezoo), or from both (docs/fixtures.md). Inside mm and rad.
+/// its own datum surfaces (Fallah & Arezoo), or from both (fixtures.md). Inside mm and rad.
 /// All of it is one rigid displacement D, x_fixture = D x_part, which is an error of the workpiece
-/// (X0W … C0W of docs/machine.md) and a frame of a control.
+/// (X0W … C0W of docs/reference/machine.md) and a frame of a control.
 namespace trueaxis {
 
 /// The tip of a locator, in the frame of the part program as it stands in the fixture.

@@ -15,7 +15,7 @@
 
 /// Form parameters of ISO 12181 (roundness), 12180 (cylindricity), 12780 (straightness), 12781
 /// (flatness) and run-out, coaxiality, concentricity and parallelism of ISO 1101, with U
-/// (docs/form.md; docs/theory.md §29). Inside mm and rad; UPR: undulations per revolution.
+/// (form.md; theory.md §29). Inside mm and rad; UPR: undulations per revolution.
 namespace trueaxis {
 
 /// Profile filters of ISO 16610: parts 21 (Gaussian), 31 (robust Gaussian regression), 22 (spline).
@@ -145,7 +145,7 @@ struct FormResult {
   std::string source, input_hash, datum_source;
 };
 
-/// What was taken off the readings before: by how much these may be off (docs/theory.md, Eq. 291).
+/// What was taken off the readings before: by how much these may be off (theory.md, Eq. 291).
 struct TakenOff {
   std::span<const std::vector<double>> columns_mm;  ///< of one u of each amplitude, every reading's
   std::span<const double> correlation;              ///< of the amplitudes, row-major

@@ -17,7 +17,7 @@
 
 /// A machine of three to six axes as a chain from the workpiece to the tool, the errors of its
 /// axes, where the tool then is in the part, and the axis positions that put it where it should be
-/// (docs/machine.md). Inside mm and rad. M is a frame fixed to the bed; with all axes at 0 (zero
+/// (machine.md). Inside mm and rad. M is a frame fixed to the bed; with all axes at 0 (zero
 /// position) the frames of all bodies coincide with M.
 namespace trueaxis {
 

@@ -12,7 +12,7 @@
 #include "trueaxis/inference.hpp"
 
 /// What the model of a machine gets wrong, from measurements of balls, bars and arrays
-/// (docs/calibration.md).
+/// (docs/reference/calibration.md).
 namespace trueaxis {
 
 /// A number that says of what form a term is: an order, a degree, a range, a row.

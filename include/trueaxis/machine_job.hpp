@@ -12,7 +12,7 @@
 #include "trueaxis/machine_diagnosis.hpp"
 
 /// The job of a machine of several axes: from a measurement to its errors, and with them from a
-/// program to one that cuts right (docs/machine_job.md). Inside mm, rad and s.
+/// program to one that cuts right (docs/reference/machine-job.md). Inside mm, rad and s.
 namespace trueaxis {
 
 /// A file that a job reads, for the record.

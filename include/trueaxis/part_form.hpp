@@ -11,7 +11,7 @@
 #include "trueaxis/probe_stream.hpp"
 
 /// The form of a diagnosed part (ISO 12181, 12180, 1101): as it was probed, and without what the
-/// diagnosis found that is not of the part (docs/form.md; docs/theory.md §33).
+/// diagnosis found that is not of the part (form.md; theory.md §33).
 namespace trueaxis {
 
 /// What is asked of the form of a reference, and how it is filtered.

@@ -9,7 +9,7 @@
 #include "trueaxis/machine_diagnosis.hpp"
 
 /// What the errors of a machine do to one program: those that a diagnosis found, and those that its
-/// measurement does not show (docs/calibration.md).
+/// measurement does not show (docs/reference/calibration.md).
 namespace trueaxis {
 
 /// One effect alone, at the size that was found or that could hide.

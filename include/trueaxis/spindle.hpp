@@ -12,7 +12,7 @@
 
 /// Form of the part and error motion of the spindle, separated by several sensors at known angles,
 /// by reversal (Donaldson 1972), by re-indexed set-ups, or by all of these in one estimate
-/// (docs/theory.md §22). Inside mm and rad; an order is a number of undulations per revolution.
+/// (theory.md §22). Inside mm and rad; an order is a number of undulations per revolution.
 namespace trueaxis {
 
 struct SpindleOptions {

@@ -81,7 +81,7 @@ enum class Root {
 };  ///< front: the larger X, where a tool in front works; rear: the smaller
 
 /// Exact intersection at spindle angle C and height Z of the line Y = height parallel to X
-/// (the quadratic of docs/theory.md, Eq. 7, with K = 1 + tan²(half angle), no tilt of the line).
+/// (the quadratic of theory.md, Eq. 7, with K = 1 + tan²(half angle), no tilt of the line).
 /// Eqs. 5–9.
 Intersection intersect(const Revolved& surface, double c_rad, double z_mm, double height_mm = 0.0,
                        Root root = Root::front);

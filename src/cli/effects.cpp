@@ -49,7 +49,7 @@ void add_effects(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<EffectsArguments>();
   command->add_option("id", options->id, "effect to explain, as part.bow");
   command->add_flag("--markdown", options->markdown,
-                    "print the whole catalogue as docs/effects.md");
+                    "print the whole catalogue as docs/reference/effects.md");
   command->add_flag("--json", options->json, "print as JSON (trueaxis.effects/1)");
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

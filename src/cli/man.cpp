@@ -68,8 +68,10 @@ std::string manual(const CLI::App& app) {
       ".SH SYNOPSIS\n.B trueaxis\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n"
       ".SH DESCRIPTION\n";
   text += troff(app.get_description()) +
-          "\n.PP\nFiles in and out, and every key of them, are in docs/files.md; the first half "
-          "hour in docs/tutorial.md; words and symbols in docs/glossary.md.\n.SH COMMANDS\n";
+          "\n.PP\nFiles in and out, and every key of them, are in docs/reference/files.md; the "
+          "first half "
+          "hour in docs/tutorial/first-axis.md; words and symbols in "
+          "docs/reference/glossary.md.\n.SH COMMANDS\n";
   for (const DescribedCommand& command : commands_of(app)) text += command_entry(command);
   return text + ".SH EXIT STATUS\n" + troff(app.get_footer()) +
          "\n.SH ENVIRONMENT\n.TP\n\\fBNO_COLOR\\fR\nwhere it is set, the verdict has no colour\n";

@@ -14,7 +14,7 @@ using Refit = std::function<FitResult(const ProbeStream&, SurfaceKind)>;
 
 /// Why a fit cannot be that of a probed part, with the likely mistake; empty: nothing speaks
 /// against it. In this order: a probe that does not move, columns or units that fit far better when
-/// read otherwise, residuals beyond what parts and probes show (docs/theory.md, Eqs. 306 to 308).
+/// read otherwise, residuals beyond what parts and probes show (theory.md, Eqs. 306 to 308).
 std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit);
 
 /// Columns exchanged, or C in another unit, where that leaves less than a third of the residuals;

@@ -67,7 +67,7 @@ bool exchange_each(Side& side) {
   return changed;
 }
 
-/// Terms taken, dropped and exchanged one by one until nothing changes (docs/theory.md, §8.2). A
+/// Terms taken, dropped and exchanged one by one until nothing changes (theory.md, §8.2). A
 /// side has columns, a catalogue and what it knows of both:
 ///   terms(), most()                the model, and how many terms it may have
 ///   passing_beside(terms)          the best term that passes its test, if any

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Measured features and characteristics as a QIF 3.0 results document (ANSI/DMSC QIF, ISO 23952):
-/// docs/form.md says what stands where. Lengths in mm, angles in degrees, as the file says them.
+/// form.md says what stands where. Lengths in mm, angles in degrees, as the file says them.
 namespace trueaxis {
 
 /// A number with its standard uncertainty (`combinedUncertainty`) and mean error (`meanError`),

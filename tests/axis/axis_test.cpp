@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axis after a diagnosis on a few streams of the axis study; docs/axis_study.md has many.
+// The axis after a diagnosis on a few streams of the axis study; axis_study.md has many.
 #include <gtest/gtest.h>
 
 #include <cmath>

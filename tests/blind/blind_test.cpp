@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diagnosis against sealed truths, some hundred cases. Each bound is binomial: it fails where
-// the goal of docs/blind_study.md would give so few right ones with a probability below 1e-4
+// the goal of blind_study.md would give so few right ones with a probability below 1e-4
 // (goals.hpp).
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ namespace trueaxis::blind {
 using virtual_lathe::Effect;
 
 /// A parameter that an effect is proportional to, and the upper end of its typical range
-/// (docs/effects.md), in the unit of its name.
+/// (docs/reference/effects.md), in the unit of its name.
 struct Size {
   std::string_view name;
   double typical_most;

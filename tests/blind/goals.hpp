@@ -7,7 +7,7 @@
 
 namespace trueaxis::blind {
 
-/// The share of cases that docs/blind_study.md wants right.
+/// The share of cases that docs/evidence/blind_study.md wants right.
 double goal(Kind kind, PlanId plan);
 
 /// Of the recommended measurements, taken in the virtual lathe, that resolve the class (issue 3).

@@ -26,12 +26,12 @@ inline constexpr double eccentricity_mm = 0.2, tilt_rad = 1e-3;
 /// Incommensurate: orders up to 11 are below half of it, and none is the alias of another.
 inline constexpr double readings_per_revolution = 23.7;
 
-/// A part with 0.2 mm of eccentricity and 1 mrad of tilt that is probed by a plan of docs/theory.md
+/// A part with 0.2 mm of eccentricity and 1 mrad of tilt that is probed by a plan of theory.md
 /// with about 1500 readings; no noise, no effect, seed 1. `variant` (0 … 3) turns eccentricity and
 /// tilt.
 virtual_lathe::Scenario plain_scenario(PlanId plan, SurfaceId surface, int variant);
 
-/// The scenario with a further measurement, by the code of its separator (docs/effects.md: RV RZ 2W
+/// The scenario with a further measurement, by the code of its separator (effects.md: RV RZ 2W
 /// DW ST RC RE OZ RM XJ), appended: the passes at hand stay as they are. Nothing: MS, which is
 /// another part, and unknown codes.
 std::optional<virtual_lathe::Scenario> with_measurement(virtual_lathe::Scenario scenario,

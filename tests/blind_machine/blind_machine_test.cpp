@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diagnosis of machines against sealed truths of the virtual machine. Each bound is binomial:
-// it fails where the goal of docs/blind_machine.md would give so few right ones with a probability
+// it fails where the goal of blind_machine.md would give so few right ones with a probability
 // below 1e-4.
 #include <gtest/gtest.h>
 

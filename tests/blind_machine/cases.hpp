@@ -32,7 +32,7 @@ struct Case {
 /// Drawn from the seed alone. Sizes are plausible ones: 0.1 mm and 0.2 mrad at most.
 Case make_case(const Wanted& wanted);
 
-/// The readings of a plan with noise, as rows of docs/calibration.md.
+/// The readings of a plan with noise, as rows of docs/reference/calibration.md.
 std::string measurement_text(const Case& one, const Plan& plan, std::uint64_t noise_seed);
 
 }  // namespace trueaxis::blind_machine

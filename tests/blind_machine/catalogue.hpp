@@ -8,7 +8,7 @@ namespace trueaxis::blind_machine {
 /// The range of an axis over a plan.
 std::pair<double, double> range_of(const Plan& plan, AxisName axis);
 
-/// Every term that docs/calibration.md lists for this machine and plan but ball.slip, which has a
+/// Every term that calibration.md lists for this machine and plan but ball.slip, which has a
 /// row.
 std::vector<Effect> catalogue(const Machine& machine, const Plan& plan);
 

@@ -47,7 +47,7 @@ TEST_F(CompensateCommand, TheHashOfAMachineIsThatOfTheBytesThatWereRead) {
             result("r.json").at("inputs")[1].at("hash"));
 }
 
-// The numbers of the worked example, docs/nc.md and docs/machine.md: machine, errors and results
+// The numbers of the worked example, nc.md and machine.md: machine, errors and results
 // were worked out by hand there.
 TEST_F(CompensateCommand, WritesTheWorkedExampleToTheByte) {
   const CommandStreams done = compensate("p.nc", hole, of_trunnion + "-o out.nc --json r.json");
@@ -212,7 +212,7 @@ TEST_F(CompensateCommand, StatesUOfTheTipWhereTheErrorsHaveU) {
 }
 
 TEST_F(CompensateCommand, PrintsWhatTheDocumentationShows) {
-  const std::string page = read_text(fs::path(places::source()) / "docs/nc.md");
+  const std::string page = read_text(fs::path(places::source()) / "docs/reference/nc.md");
   const std::string start = "```console\n$ trueaxis ";
   const std::size_t begin = page.find(start), end = page.find("```", begin + start.size());
   ASSERT_NE(begin, std::string::npos);

@@ -127,7 +127,7 @@ TEST_P(CorrectionWorks, CutPartIsCoaxialWithTheReference) {
   const auto verdict = read_json(folder / "out/result.json").at("verdict");
   const double at_most_um = 1000.0 * verdict.at("coaxiality_at_most").at("value").get<double>();
   RecordProperty("coaxiality_um", std::to_string(after));
-  // Noise-free: docs/theory.md asks for 0.1 µm. With noise, 1.6 times what 5 of 100 exceed, of a
+  // Noise-free: theory.md asks for 0.1 µm. With noise, 1.6 times what 5 of 100 exceed, of a
   // Rayleigh distribution: missed in 1 of 2000 seeds.
   EXPECT_LT(after, c.noise_um == 0.0 ? 0.1 : 1.6 * at_most_um + 0.1) << at_most_um << " µm";
 }

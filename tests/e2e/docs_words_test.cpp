@@ -40,7 +40,7 @@ std::set<std::string> keys_in(const std::string& source) {
 }
 
 TEST(DocsWords, EveryKeyOfAScenarioIsOnThePage) {
-  const std::string scenario = section_of(page("files.md"), "## Scenario (TOML)");
+  const std::string scenario = section_of(page("reference/files.md"), "## Scenario (TOML)");
   ASSERT_FALSE(scenario.empty());
   auto keys = keys_in("src/simulate/files/scenario_toml.cpp");
   for (const char* const made :
@@ -50,11 +50,11 @@ TEST(DocsWords, EveryKeyOfAScenarioIsOnThePage) {
   for (const std::string& key : keys)
     EXPECT_TRUE(contains(scenario, "`" + key) || contains(scenario, "[" + key + "]") ||
                 contains(scenario, "." + key + "]"))
-        << "docs/files.md, Scenario, lacks " << key;
+        << "docs/reference/files.md, Scenario, lacks " << key;
 }
 
 TEST(DocsWords, EveryKeyOfASweepIsOnThePage) {
-  const std::string sweep = section_of(page("files.md"), "## Sweep (TOML)");
+  const std::string sweep = section_of(page("reference/files.md"), "## Sweep (TOML)");
   std::size_t found = 0;
   for (const char* const source :
        {"src/study/sweep/files/sweep_axes.cpp", "src/study/sweep/files/sweep_toml.cpp",
@@ -63,7 +63,7 @@ TEST(DocsWords, EveryKeyOfASweepIsOnThePage) {
       ++found;
       EXPECT_TRUE(contains(sweep, "`" + key) || contains(sweep, "[" + key + "]") ||
                   contains(sweep, "." + key + "]"))
-          << "docs/files.md, Sweep, lacks " << key;
+          << "docs/reference/files.md, Sweep, lacks " << key;
     }
   EXPECT_GT(found, 20u);
 }
@@ -71,14 +71,14 @@ TEST(DocsWords, EveryKeyOfASweepIsOnThePage) {
 // The report's list of terms is a part of the glossary, word for word.
 TEST(DocsWords, ReportAndGlossaryAgree) {
   const std::string script = read_text(root / "src/report/glossary.js"),
-                    words = page("glossary.md");
+                    words = page("reference/glossary.md");
   const std::regex entry("\\['((?:[^'\\\\]|\\\\.)*)', '((?:[^'\\\\]|\\\\.)*)'\\]");
   std::size_t entries = 0;
   for (std::sregex_iterator at(script.begin(), script.end(), entry), end; at != end; ++at) {
     ++entries;
     const std::string row = std::regex_replace(
         "| " + (*at)[1].str() + " | " + (*at)[2].str() + " |\n", std::regex("\\\\'"), "'");
-    EXPECT_TRUE(contains(words, row)) << "docs/glossary.md lacks the row\n" << row;
+    EXPECT_TRUE(contains(words, row)) << "docs/reference/glossary.md lacks the row\n" << row;
   }
   EXPECT_GT(entries, 10u);
 }
@@ -88,7 +88,8 @@ class GlossaryOfScreens : public CommandTest {};
 // The word that a line of a screen begins with.
 TEST_F(GlossaryOfScreens, HasTheWordOfEveryLine) {
   const std::string data = places::source() + "/data/", of = data + "five_axis/";
-  const std::string words = section_of(page("glossary.md"), "## Verdicts and lines of a screen");
+  const std::string words =
+      section_of(page("reference/glossary.md"), "## Verdicts and lines of a screen");
   std::set<std::string> heads;
   for (const std::string& one :
        {"run " + data + "jobs/shaft.toml -o a", "run " + data + "jobs/shaft_three_lobes.toml -o b",
@@ -109,17 +110,17 @@ TEST_F(GlossaryOfScreens, HasTheWordOfEveryLine) {
   EXPECT_GT(heads.size(), 15u);
   for (const std::string& head : heads)
     EXPECT_TRUE(std::regex_search(words, std::regex("[| ]" + head + "[, ]")))
-        << "docs/glossary.md has no `" << head << "` among the lines of a screen";
+        << "docs/reference/glossary.md has no `" << head << "` among the lines of a screen";
 }
 
 TEST(DocsWords, CodesAreSaidWhereTheyAreUsed) {
-  const std::string words = page("glossary.md"), effects = page("effects.md");
+  const std::string words = page("reference/glossary.md"), effects = page("reference/effects.md");
   const std::regex row("\n\\| ([A-Z0-9]{2}) \\| ([^|]+) \\|");
   std::size_t codes = 0;
   for (std::sregex_iterator at(effects.begin(), effects.end(), row), end; at != end; ++at, ++codes)
     EXPECT_TRUE(contains(words, "\n| " + (*at)[1].str() + " | ")) << (*at)[1];
   EXPECT_EQ(codes, 11u);
-  for (const char* const name : {"blind_study.md", "axis_study.md"}) {
+  for (const char* const name : {"evidence/blind_study.md", "evidence/axis_study.md"}) {
     const std::string text = std::regex_replace(page(name), std::regex("\n"), " ");
     const std::size_t at = text.find("**The plans**");
     ASSERT_NE(at, std::string::npos) << name;
@@ -134,9 +135,10 @@ TEST(DocsWords, CodesAreSaidWhereTheyAreUsed) {
 }
 
 TEST(DocsWords, TheDrawingOfTheFrameIsWhereItIsNeeded) {
-  for (const char* const name : {"tutorial.md", "files.md", "theory.md", "glossary.md"})
-    EXPECT_TRUE(contains(page(name), "](frame.svg)")) << name;
-  const std::string drawing = page("frame.svg");
+  for (const char* const name : {"tutorial/first-axis.md", "reference/files.md",
+                                 "explanation/theory.md", "reference/glossary.md"})
+    EXPECT_TRUE(contains(page(name), "](../images/frame.svg)")) << name;
+  const std::string drawing = page("images/frame.svg");
   for (const char* const part : {"<title", "X_M &gt; 0", "X_M &lt; 0", "C grows", "rear", "front",
                                  "nose", "ball", "prefers-color-scheme: dark"})
     EXPECT_TRUE(contains(drawing, part)) << part;
@@ -145,7 +147,7 @@ TEST(DocsWords, TheDrawingOfTheFrameIsWhereItIsNeeded) {
 // Sentences that nobody understood at first reading, and that are gone.
 TEST(DocsWords, NoRiddles) {
   std::size_t pages = 0;
-  for (const auto& file : std::filesystem::directory_iterator(root / "docs")) {
+  for (const auto& file : std::filesystem::recursive_directory_iterator(root / "docs")) {
     if (file.path().extension() != ".md") continue;
     ++pages;
     const std::string text = read_text(file.path());

@@ -85,8 +85,9 @@ TEST(EffectsCommand, JsonIsInTheUnitsOfTheContract) {
 TEST(EffectsCommand, DocsEffectsIsTheCatalogueOfToday) {
   const CommandResult page = trueaxis_command("effects --markdown");
   ASSERT_EQ(page.exit_code, 0);
-  EXPECT_EQ(page.output, read_text(std::filesystem::path(places::source()) / "docs/effects.md"))
-      << "write it anew: trueaxis effects --markdown > docs/effects.md";
+  EXPECT_EQ(page.output,
+            read_text(std::filesystem::path(places::source()) / "docs/reference/effects.md"))
+      << "write it anew: trueaxis effects --markdown > docs/reference/effects.md";
   for (const Effect& effect : effect_catalogue())
     EXPECT_NE(page.output.find("\n## " + std::string(effect.id) + "\n"), std::string::npos);
 }

@@ -10,7 +10,7 @@ namespace {
 
 class ErrorsFiles : public CommandTest {
  protected:
-  /// The numbers of the only row of `pose` at the worked example of docs/machine.md.
+  /// The numbers of the only row of `pose` at the worked example of docs/reference/machine.md.
   std::vector<double> pose(const std::string& errors) {
     const CommandStreams done =
         command("pose " + machine_ + ' ' + data_ + "trunnion_ac_positions.csv --errors " + errors);

@@ -147,10 +147,10 @@ TEST_F(FixtureCommand, TheDisplacedProgramDrillsTheHoles) {
   }
 }
 
-// Table 2 of the paper as docs/fixtures.md has it: every rate from the sizes, the printed ones
+// Table 2 of the paper as fixtures.md has it: every rate from the sizes, the printed ones
 // rounded but for the two that are cut off.
 TEST(FixtureDocs, RatesOfTableTwo) {
-  std::istringstream page(read_text(places::source() + "/docs/fixtures.md"));
+  std::istringstream page(read_text(places::source() + "/docs/reference/fixtures.md"));
   int rows = 0, cut_off = 0;
   for (std::string line; std::getline(page, line);) {
     if (line.compare(0, 7, "| hole,") != 0 && line.compare(0, 7, "| step,") != 0) continue;

@@ -173,12 +173,12 @@ double from_segment(const double* p, const double* a, const double* b) {
   return std::sqrt(off);
 }
 
-// The module knows the machine with its errors; its formulas were written from docs/machine.md.
+// The module knows the machine with its errors; its formulas were written from machine.md.
 TEST_F(LinuxCncKinematics, AMachineWithErrorsFollowsTheCompensatedPath) {
   if (!builds_client("/usr/bin/halcompile"))
     GTEST_SKIP() << "halcompile (linuxcnc-uspace-dev) or cc is not installed";
   makes_trunnion();
-  // The worked example of docs/machine.md.
+  // The worked example of docs/reference/machine.md.
   const auto example = world("./trunnion_kins.so", {{100.0, -50.0, 30.0, -35.0, 70.0}}).front();
   const double expected[] = {-1.850358534818, 97.210312596243, 59.190929118170};
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(example[k], expected[k], 1e-11);

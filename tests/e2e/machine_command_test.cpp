@@ -58,7 +58,7 @@ class MachineCommand : public CommandTest {
   }
 };
 
-// The worked example of docs/machine.md to its last printed digit.
+// The worked example of docs/reference/machine.md to its last printed digit.
 TEST_F(MachineCommand, PoseOfTheWorkedExample) {
   const std::string positions = data + "trunnion_ac_positions.csv";
   expect_row("pose " + machine + positions,

@@ -1,4 +1,4 @@
-component trunnion_kins "The trunnion of docs/machine.md with the errors of its worked example";
+component trunnion_kins "The trunnion of docs/reference/machine.md with the errors of its worked example";
 license "Apache-2.0";
 pin in float errors = 1 "0: the machine without errors";
 option period no;
@@ -6,7 +6,7 @@ function unused nofp;
 ;;
 // SPDX-License-Identifier: Apache-2.0
 // A kinematics module of LinuxCNC: joints X Y Z A C; world x y z is the tip in the part and u v w
-// the direction of the tool. Written from the formulas of docs/machine.md, body by body from the bed.
+// the direction of the tool. Written from the formulas of docs/reference/machine.md, body by body from the bed.
 #include <rtapi_math.h>
 
 #include "kinematics.h"

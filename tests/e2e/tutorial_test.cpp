@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every command of docs/tutorial.md, in its order in one folder: it ends with 0, and what the page
-// shows below it is what it prints.
+// Every command of docs/tutorial/first-axis.md, in its order in one folder: it ends with 0, and
+// what shows below it is what it prints.
 #include <fstream>
 #include <sstream>
 
@@ -13,7 +13,7 @@ namespace {
 class Tutorial : public CommandTest {};
 
 TEST_F(Tutorial, RunsAsPrinted) {
-  std::istringstream page(read_text(places::source() + "/docs/tutorial.md"));
+  std::istringstream page(read_text(places::source() + "/docs/tutorial/first-axis.md"));
   std::size_t commands = 0;
   std::istringstream printed;
   bool console = false;

@@ -16,7 +16,8 @@ const std::string to_compensate = "compensate " + five_axis_data + "example.nc "
 class VirtualCutCommand : public CommandTest {};
 
 TEST_F(VirtualCutCommand, PrintsWhatTheDocumentationShows) {
-  const std::string page = read_text(fs::path(places::source()) / "docs/virtual_machine.md");
+  const std::string page =
+      read_text(fs::path(places::source()) / "docs/reference/virtual-machine.md");
   const std::string start = "```console\n$ trueaxis ";
   const std::size_t begin = page.find(start), end = page.find("```", begin + start.size());
   ASSERT_NE(begin, std::string::npos);

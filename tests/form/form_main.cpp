@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of docs/form_study.md.
+// The table of docs/evidence/form_study.md.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

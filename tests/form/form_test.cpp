@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A few cases of the study of docs/form_study.md, judged by the binomial interval.
+// A few cases of the study of docs/evidence/form_study.md, judged by the binomial interval.
 #include <gtest/gtest.h>
 
 #include "form/form_case.hpp"

@@ -21,7 +21,7 @@ namespace {
 constexpr double sigma_mm = 0.5e-3;
 constexpr std::uint64_t seed = 12;
 
-/// Every kind of pass of the plan P8 of docs/theory.md, in a few hundred readings: out, back at a
+/// Every kind of pass of the plan P8 of theory.md, in a few hundred readings: out, back at a
 /// second speed, reversed, a dwell, a stationary capture, from the rear, and clamped anew turned by
 /// 70° with less force and a jog of X.
 virtual_lathe::Scenario all_passes(double tangent, double turns = 7.3, double end_mm = 60.0) {

@@ -14,7 +14,7 @@ namespace trueaxis::testing {
 inline constexpr double phi = 0.7;           ///< phase of all that have one
 inline constexpr double face_end_mm = 40.0;  ///< X where the probing of a face ends
 
-/// An effect of the virtual lathe at a size, and the linear parameters that docs/theory.md gives it
+/// An effect of the virtual lathe at a size, and the linear parameters that theory.md gives it
 /// per unit of the size.
 struct LatheCase {
   std::string id;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The score test of one preset cause on white noise against the table of docs/theory.md, and its
+// The score test of one preset cause on white noise against the table of theory.md, and its
 // amplitude against the Cramér-Rao bound.
 #include <gtest/gtest.h>
 

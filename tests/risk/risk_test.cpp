@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Of GOs at the edge of the tolerance 5 % are out (ISO 14253-1): a short run of the study of
-// docs/go_risk.md, with the binomial interval of its size.
+// docs/evidence/go_risk.md, with the binomial interval of its size.
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/binomial.hpp>

@@ -7,7 +7,7 @@
 
 #include "trueaxis/machine.hpp"
 
-/// The tool in the part by 4×4 matrices multiplied out as docs/machine.md writes them, body by body
+/// The tool in the part by 4×4 matrices multiplied out as machine.md writes them, body by body
 /// from the bed. It shares the structs of the public header with the room `machine`, and no
 /// function.
 namespace trueaxis::testing {

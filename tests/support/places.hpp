@@ -6,10 +6,10 @@
 /// serves every clone.
 namespace places {
 
-std::string command();  ///< the program `trueaxis`
-std::string source();   ///< the top of the source tree
-std::string scratch();  ///< a folder for what tests write
-std::string
-measured_data();  ///< the measured streams of docs/measured_data.md; empty if there are none
+std::string command();        ///< the program `trueaxis`
+std::string source();         ///< the top of the source tree
+std::string scratch();        ///< a folder for what tests write
+std::string measured_data();  ///< the measured streams of docs/evidence/measured_data.md; empty if
+                              ///< there are none
 
 }  // namespace places

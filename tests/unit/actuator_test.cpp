@@ -14,7 +14,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 
-// The actuator of the facts of docs/theory.md: second order alone, the hold made negligible.
+// The actuator of the facts of theory.md: second order alone, the hold made negligible.
 Actuator without_hold() {
   Actuator actuator;
   actuator.sampling_hz = 1e12;
@@ -22,7 +22,7 @@ Actuator without_hold() {
 }
 
 TEST(Actuator, FollowingErrorsOfTheCatalogueHoldWithoutTheHold) {
-  // docs/theory.md: 300 µm at 1 UPR, 600 Hz, damping 0.7; printed to one decimal.
+  // docs/explanation/theory.md: 300 µm at 1 UPR, 600 Hz, damping 0.7; printed to one decimal.
   const double printed[][2] = {{60, 0.7}, {300, 3.5}, {600, 7.0}, {1000, 11.7}, {2000, 23.4}};
   for (const auto& [rpm, um] : printed) {
     EXPECT_NEAR(300.0 * std::abs(without_hold().response(rpm / 60.0) - 1.0), um, 0.05) << rpm;
@@ -39,13 +39,13 @@ TEST(Actuator, TheHoldOfTheSamplingAddsHalfItsPeriodToTheLag) {
 }
 
 TEST(Actuator, AdvancingTheCommandLeavesSixNanometres) {
-  // docs/theory.md: advancing by 2ζ/ω_n = 0.37 ms leaves 0.006 µm at 1000 rpm.
+  // docs/explanation/theory.md: advancing by 2ζ/ω_n = 0.37 ms leaves 0.006 µm at 1000 rpm.
   const double lead_s = 2.0 * 0.7 / (2.0 * pi * 600.0);
   EXPECT_NEAR(lead_s, 0.37e-3, 0.005e-3);
   const double f = 1000.0 / 60.0;
   const Complex advanced = without_hold().response(f) * std::polar(1.0, 2.0 * pi * f * lead_s);
   EXPECT_NEAR(300.0 * std::abs(advanced - 1.0), 0.006, 0.0005);
-  // docs/theory.md: timing costs 31 nm per µs there.
+  // docs/explanation/theory.md: timing costs 31 nm per µs there.
   EXPECT_NEAR(300e3 * 2.0 * pi * f * 1e-6, 31.0, 0.5);
 }
 

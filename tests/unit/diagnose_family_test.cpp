@@ -27,7 +27,7 @@ TEST(FamilyOfTests, CountsEveryTest) {
   EXPECT_EQ((Family{10.0, 3.0}.p_value(1.0)), 1.0);
 }
 
-// Numbers of docs/theory.md: near 17 for the preset causes (40 of them at 1 %: 2 ln 4000 = 16.6),
+// Numbers of theory.md: near 17 for the preset causes (40 of them at 1 %: 2 ln 4000 = 16.6),
 // near 28 with every bin of the scans (some ten thousand: 2 ln 10⁶ = 27.6).
 TEST(FamilyOfTests, ThresholdsAreThoseOfTheFamily) {
   EXPECT_NEAR((Family{40.0, 0.0}.threshold(0.01)), 2.0 * std::log(40.0 / -std::log(0.99)), 1e-9);
@@ -116,7 +116,7 @@ TEST(DetectionPower, IsTheTailOfTheNoncentralChiSquared) {
   EXPECT_NEAR(detection_power(1e6, 2, family, 0.01), 1.0, 1e-12);
 }
 
-// The table of docs/theory.md for one preset cause at 5 %, amplitudes in µm rounded to 0.01: half a
+// The table of theory.md for one preset cause at 5 %, amplitudes in µm rounded to 0.01: half a
 // digit of 0.81 moves λ by 1.2 %, the power by 0.006.
 TEST(DetectionPower, IsTheTableOfOneCause) {
   const double amplitudes_um[] = {0.81, 1.14, 1.30, 1.44, 1.69};

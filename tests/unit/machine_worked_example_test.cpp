@@ -11,7 +11,7 @@ namespace {
 const std::string data = places::source() + "/data/five_axis/";
 constexpr double half_digit = 0.5e-12;  ///< of twelve decimals
 
-// The numbers of docs/machine.md, computed once with numpy by multiplying 4×4 matrices out and
+// The numbers of machine.md, computed once with numpy by multiplying 4×4 matrices out and
 // solving for the axes with differences: to their last printed digit.
 class WorkedExample : public ::testing::Test {
  protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every code has words and a line in docs/reasons.md; what a sentence asks for is there.
+// Every code has words and a line in docs/reference/reasons.md; what a sentence asks for is there.
 #include "format/reason_words.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr auto code_of = [](std::size_t i) { return static_cast<ReasonCode>(i); };
 
 std::string page() {
-  std::ifstream file(std::string(places::source()) + "/docs/reasons.md");
+  std::ifstream file(std::string(places::source()) + "/docs/reference/reasons.md");
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
@@ -52,7 +52,7 @@ TEST(ReasonWords, EveryCodeHasWordsAndALineInTheDocs) {
     EXPECT_FALSE(words.empty()) << to_string(code_of(i));
     EXPECT_TRUE(ids.insert(to_string(code_of(i))).second) << to_string(code_of(i));
     const std::string row = row_of(text, code_of(i));
-    EXPECT_FALSE(row.empty()) << to_string(code_of(i)) << " is not in docs/reasons.md";
+    EXPECT_FALSE(row.empty()) << to_string(code_of(i)) << " is not in docs/reference/reasons.md";
     for (const std::string& key : keys_of(words))
       EXPECT_NE(row.find("`" + key + "`"), std::string::npos)
           << key << " of " << to_string(code_of(i));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each effect against its signature in docs/effects.md, written down independently.
+// Each effect against its signature in docs/reference/effects.md, written down independently.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -9,7 +9,7 @@
 
 namespace trueaxis::calibrate_detail {
 
-/// Every effect of docs/calibration.md that this machine may have, with why these rows cannot show
+/// Every effect of calibration.md that this machine may have, with why these rows cannot show
 /// it where they cannot; then a user's own. Nothing else knows an effect by its id.
 /// @param timed whether every row has its time
 std::vector<MachineEffect> machine_effects(const Problem& problem, bool timed,

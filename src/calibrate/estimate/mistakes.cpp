@@ -20,7 +20,7 @@ constexpr double well_fitted = 1.4;   // RMS over a stated σ: nothing is looked
 constexpr double much_fitted = 0.3;   // of the RMS before, where no σ is stated: nothing either
 constexpr double far_too_small = 30;  // times less scatter than is stated, or more
 // RMS that machines leave once everything is fitted: ten times what the component errors of worn
-// ones do (docs/calibration.md).
+// ones do (docs/reference/calibration.md).
 constexpr double largest_left_mm = 0.05;
 constexpr double some_numbers = 120;  // of readings, on which a mistake is tried first
 constexpr double some_leeway = 1.3;   // of the RMS that is left of them

@@ -189,7 +189,7 @@ void add_uncertainty(const std::array<double, 3>& factors, UncertainAmount amoun
 }
 
 /// E_KK in the machine's directions of the position error along the axis: what the moving part does
-/// (docs/calibration.md, signs).
+/// (docs/reference/calibration.md, signs).
 void add_errors(const MachineAxis& axis, const AxisReadOut& read_out, Calibration& out) {
   const std::size_t body = index_of(axis.name), first = is_rotary(axis.name) ? 3 : 0;
   const bool against = axis.carries_workpiece && out.errors.sign == ErrorSign::moving_part;

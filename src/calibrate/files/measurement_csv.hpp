@@ -8,7 +8,7 @@
 
 namespace trueaxis {
 
-/// Reads a measurement on a machine (docs/calibration.md): `# kind: ball`, a header that names
+/// Reads a measurement on a machine (calibration.md): `# kind: ball`, a header that names
 /// every column with its unit, rows in the order in which they were taken.
 /// @throws InputError with every diagnostic: file, line, column, what to do.
 MachineMeasurement read_measurement_csv(const std::string& path, const Machine& machine);

@@ -11,7 +11,7 @@ namespace trueaxis::diagnose_detail {
 /// Which local forms a model may have: any, none, or those it is begun with, which stay.
 enum class LocalFormsTaken { any, none, given };
 
-/// Terms taken, dropped and exchanged one by one until nothing changes (docs/theory.md, §8.2).
+/// Terms taken, dropped and exchanged one by one until nothing changes (theory.md, §8.2).
 class StepwiseSearch {
  public:
   explicit StepwiseSearch(Proposer& proposer);

@@ -20,7 +20,7 @@ std::string typical_size(const EffectParameter& parameter);
 /// "at most 0.2 either way", "never negative"; empty: anything.
 std::string possible_size(const EffectParameter& parameter);
 
-/// The catalogue as docs/effects.md: the measuring chain, an index, a section an effect.
+/// The catalogue as docs/reference/effects.md: the measuring chain, an index, a section an effect.
 std::string effects_markdown();
 
 /// Schema trueaxis.effects/1: the entries and the measurements that tell them apart. Lengths in mm,

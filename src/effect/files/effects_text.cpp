@@ -85,7 +85,7 @@ std::string scenario_keys_text(std::string_view id) {
 constexpr std::string_view head = R"(# The catalogue of effects
 
 Written by `trueaxis effects --markdown`; a test holds this page against the catalogue. The equations are in
-[theory.md](theory.md).
+[theory.md](../explanation/theory.md).
 
 What the readings of a real turned part contain and the ideal surface does not. An effect is a term in one slot of the measuring chain,
 

@@ -39,7 +39,7 @@ ErrorsOfFiles read_errors_files(std::span<const std::string> paths, const Machin
 ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& machine,
                        const ErrorsFiles& said = {});
 
-/// Reads `trueaxis.errors/1` (docs/machine.md) of a machine. Errors that are said to be of another
+/// Reads `trueaxis.errors/1` (machine.md) of a machine. Errors that are said to be of another
 /// one are refused, and those of a size that machines have not unless the file or `large_errors`
 /// says that they are so large.
 /// @throws InputError with every diagnostic: file, line, column, what to do.

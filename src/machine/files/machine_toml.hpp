@@ -16,7 +16,7 @@ struct MachineFile {
   std::string hash{};  ///< of the bytes that were read
 };
 
-/// Reads `trueaxis.machine/1` (docs/machine.md), in its zero-position or its D-H form.
+/// Reads `trueaxis.machine/1` (docs/reference/machine.md), in its zero-position or its D-H form.
 /// @throws InputError with every diagnostic: file, line, column, what to do.
 MachineFile read_machine_toml(const std::string& path);
 

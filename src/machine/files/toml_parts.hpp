@@ -70,7 +70,7 @@ void read_denavit_hartenberg(TomlTable& root, MachineFile& file);
 /// `mode_needed`: `program.mode` has no default.
 void read_program_parts(TomlTable& root, Machine& machine, bool mode_needed);
 
-/// The table [covariance] of an errors file (docs/machine.md) into `errors`, whose terms give up
+/// The table [covariance] of an errors file (machine.md) into `errors`, whose terms give up
 /// the u that it has. Complains of amounts that are none or twice, of a matrix that is none of a
 /// covariance, of a u that is another one than the matrix', and, unless `large_errors`, of one that
 /// no error of a machine has.

@@ -14,7 +14,7 @@ namespace trueaxis {
 /// @throws InputError if it is no TOML
 bool is_machine_job(std::string_view content, const std::string& path);
 
-/// Reads a job of a machine (docs/machine_job.md) and every file that it names.
+/// Reads a job of a machine (docs/reference/machine-job.md) and every file that it names.
 /// @throws InputError with every diagnostic of all of them
 MachineJob read_machine_job_toml(std::string_view content, const std::string& path);
 

@@ -43,7 +43,7 @@ struct MeasurementScenario {
   virtual_machine::MeasurementPlan plan;
 };
 
-/// Reads a scenario with `[machine]` and `[measure]` (docs/machine.md).
+/// Reads a scenario with `[machine]` and `[measure]` (docs/reference/machine.md).
 /// @throws InputError with every diagnostic: file, line, column, what to do.
 MeasurementScenario read_measurement_toml(const std::string& path);
 
@@ -53,18 +53,18 @@ struct CutScenario {
   virtual_machine::CutPlan plan;
 };
 
-/// Reads a scenario with `[machine]` and `[cut]` (docs/virtual_machine.md), and its programs.
+/// Reads a scenario with `[machine]` and `[cut]` (virtual-machine.md), and its programs.
 /// @param program cut instead of that of the scenario, which then is the nominal one where the
 ///        scenario names no other; "": that of the scenario
 /// @throws InputError with every diagnostic: file, line, column, what to do.
 CutScenario read_cut_scenario_toml(const std::string& path, const std::string& program);
 
-/// The rows of a measurement in the columns of its kind (docs/calibration.md), mm, degrees and µm.
+/// The rows of a measurement in the columns of its kind (calibration.md), mm, degrees and µm.
 std::string measurement_csv(const Machine& machine, const virtual_machine::MeasurementPlan& plan,
                             const std::vector<virtual_machine::MeasuredRow>& rows);
 
 /// `line,end,t[s],x[mm],y[mm],z[mm],i,j,k,off[um],angle[deg]`, a row a position; numbers that
-/// nothing says are left out (docs/virtual_machine.md).
+/// nothing says are left out (docs/reference/virtual-machine.md).
 std::string cut_csv(const virtual_machine::Cut& cut);
 
 /// `trueaxis.cut/1`.
