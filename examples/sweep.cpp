@@ -9,7 +9,7 @@ using namespace trueaxis;
 
 int main() {
   bool efficient = true;
-  std::printf("readings a turn   quantity   bias µm      sd µm   bound µm\n");
+  std::printf("   readings/rev   quantity   bias µm      sd µm   bound µm\n");
   for (const double readings : {8.0, 16.0, 32.0}) {
     virtual_lathe::Scenario scenario;
     scenario.part.radius_mm = 20.0;
