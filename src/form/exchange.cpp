@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "form/exchange.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -17,6 +18,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// How far off the walls are that an exchange starts from, over the largest value.
 constexpr double wall_over_largest = 1e4;
 constexpr double least_pivot = 1e-10;
+constexpr Eigen::Index stretch = 32;  // readings, of which the worst is remembered
+constexpr double good_part = 0.1;
 
 }  // namespace
 
@@ -25,7 +28,8 @@ Exchange::Exchange(Rows rows, Criterion criterion)
   expects(rows_->rows() >= rows_->cols() && rows_->cols() > 0, "more readings than unknowns");
   const Eigen::Index p = rows_->cols();
   if (criterion_ == Criterion::gaussian) {
-    normal_ = rows_->transpose() * *rows_;
+    solver_ = std::make_shared<const Rows>(
+        linear::solve_normal(linear::gram(*rows_), Rows(rows_->transpose())).transpose());
     return;
   }
   // A zone has its half width as one unknown more, which is to be least; else it is the size.
@@ -59,33 +63,64 @@ class Constraints {
   double cost(const Exchange::Active& one) const {
     return one.reading < 0 ? -(wall_over_largest * largest_ + 1e-12) : one.side * y_[one.reading];
   }
-  /// The reading that is broken most.
-  std::optional<Exchange::Active> entering(const Eigen::VectorXd& x, int) const {
-    const Eigen::VectorXd off = y_ - rows_ * x.head(rows_.cols());
+  /// One that is broken: the worst of those that were when all were looked at last, as long as that
+  /// is worth a good part of the worst then; else of all.
+  std::optional<Exchange::Active> entering(const Eigen::VectorXd& x, int) {
     const double t = zone_ ? x[rows_.cols()] : 0.0;
-    Eigen::Index high = 0, low = 0;
-    const double above = off.maxCoeff(&high) - t, below = -off.minCoeff(&low) - t;
-    const bool from_below = zone_ && below > above;
-    if ((from_below ? below : above) <= 16.0 * epsilon * largest_) return {};
-    return Exchange::Active{from_below ? low : high, from_below ? -1 : 1};
+    if (const auto known = worst_of(broken_, x, t, good_part * worst_then_)) return known;
+    look_at_all(x, t);
+    return worst_of(broken_, x, t, 0.0);
   }
 
  private:
+  double least() const { return 16.0 * epsilon * largest_; }
+
+  std::optional<Exchange::Active> worst_of(std::span<const Exchange::Active> list,
+                                           const Eigen::VectorXd& x, double t,
+                                           double more_than) const {
+    std::optional<Exchange::Active> out;
+    double worst = std::max(more_than, least());
+    for (const Exchange::Active& one : list) {
+      double off = y_[one.reading];
+      for (Eigen::Index k = 0; k < rows_.cols(); ++k) off -= rows_(one.reading, k) * x[k];
+      if (one.side * off - t <= worst) continue;
+      worst = one.side * off - t;
+      out = one;
+    }
+    return out;
+  }
+  /// The worst of every stretch of readings.
+  void look_at_all(const Eigen::VectorXd& x, double t) {
+    off_ = y_;
+    off_.noalias() -= rows_ * x.head(rows_.cols());
+    broken_.clear();
+    worst_then_ = std::max(off_.maxCoeff(), zone_ ? -off_.minCoeff() : 0.0) - t;
+    for (Eigen::Index begin = 0; begin < off_.size(); begin += stretch) {
+      const auto part = off_.segment(begin, std::min(stretch, off_.size() - begin));
+      const double high = part.maxCoeff(), low = part.minCoeff();
+      const auto add = [&](double off, int side) {
+        if (side * off - t > least())
+          broken_.push_back({begin + (std::ranges::find(part, off) - part.begin()), side});
+      };
+      add(high, 1);
+      if (zone_) add(low, -1);
+    }
+  }
+
   const Exchange::Rows& rows_;
   Eigen::Map<const Eigen::VectorXd> y_;
   bool zone_;
-  double largest_;
+  double largest_, worst_then_ = std::numeric_limits<double>::infinity();
+  std::vector<Exchange::Active> broken_;
+  Eigen::VectorXd off_;
 };
 
 }  // namespace
 
 Nearest Exchange::least_squares(std::span<const double> y) const {
   const Eigen::Map<const Eigen::VectorXd> values(y.data(), static_cast<Eigen::Index>(y.size()));
-  const auto solved = [&](const Eigen::VectorXd& left) {
-    return linear::solve_normal(normal_, Eigen::VectorXd(rows_->transpose() * left));
-  };
-  Eigen::VectorXd q = solved(values);
-  q += solved(values - *rows_ * q);  // refined once
+  Eigen::VectorXd q = solver_->transpose() * values;
+  q += solver_->transpose() * (values - *rows_ * q);  // refined once
   return {q, {}, true};
 }
 

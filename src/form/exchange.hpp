@@ -31,7 +31,7 @@ struct Nearest {
 /// rounding; the cost is a few passes over the readings. Eqs. 265, 266.
 class Exchange {
  public:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Rows = Eigen::MatrixXd;
   /// A reading that holds on one side.
   struct Active {
     std::ptrdiff_t reading;  ///< < 0: −1 − k, the wall of unknown k
@@ -51,10 +51,10 @@ class Exchange {
   void begin();
   Nearest least_squares(std::span<const double> y) const;
 
-  std::shared_ptr<const Rows> rows_;  ///< shared by copies, which only start elsewhere
+  /// Shared by copies, which only start elsewhere.
+  std::shared_ptr<const Rows> rows_, solver_;  ///< Φ, and Φ (ΦᵀΦ)⁻¹ of least squares
   Criterion criterion_;
   Eigen::VectorXd objective_;
-  Eigen::MatrixXd normal_;
   std::vector<Active> active_;
 };
 

@@ -75,24 +75,24 @@ const SurfaceOrder::System& SurfaceOrder::system(std::size_t course) const {
 void SurfaceOrder::evidence(const Eigen::VectorXd& right, double variance,
                             const std::vector<double>& sizes, Eigen::MatrixXd& out) const {
   out.resize(static_cast<Eigen::Index>(courses()), static_cast<Eigen::Index>(sizes.size()));
+  const Eigen::ArrayXd gain = Eigen::Map<const Eigen::ArrayXd>(sizes.data(), out.cols()) / variance;
+  Eigen::ArrayXd grown(gain.size()), square(gain.size()), product(gain.size());
+  Eigen::ArrayXd log_product(gain.size());
   for (std::size_t course = 0; course < courses(); ++course) {
     const System& in = system(course);
     const Eigen::VectorXd seen = in.back.transpose() * right;
-    for (std::size_t k = 0; k < sizes.size(); ++k) {
-      const double gain = sizes[k] / variance;
-      double square = 0.0, product = 1.0, log_product = 0.0;
-      for (Eigen::Index j = 0; j < seen.size(); ++j) {
-        const double grown = 1.0 + gain * in.values[j];
-        square += seen[j] * seen[j] / grown;
-        product *= grown;
-        if (product > 1e200) {
-          log_product += std::log(product);
-          product = 1.0;
-        }
+    square.setZero(), product.setOnes(), log_product.setZero();
+    for (Eigen::Index j = 0; j < seen.size(); ++j) {
+      grown = 1.0 + gain * in.values[j];
+      square += seen[j] * seen[j] / grown;
+      product *= grown;
+      if (product[product.size() - 1] > 1e200) {  // that of the largest size
+        log_product += product.log();
+        product.setOnes();
       }
-      out(static_cast<Eigen::Index>(course), static_cast<Eigen::Index>(k)) =
-          0.5 * (gain / variance * square - log_product - std::log(product));
     }
+    out.row(static_cast<Eigen::Index>(course)) =
+        0.5 * (gain / variance * square - log_product - product.log());
   }
 }
 

@@ -33,12 +33,17 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections,
     low = std::min(low, *section.z_mm());
     high = std::max(high, *section.z_mm());
     mean_radius_mm_ += section.radius_mm() / static_cast<double>(sections.size());
-    centre_fits_.emplace_back(limacon_rows(section.raw().at), Criterion::gaussian);
+    const Exchange::Rows rows = limacon_rows(section.raw().at);
+    towards_.emplace_back();
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+      towards_.back().push_back({rows(i, 1), rows(i, 2)});
+    centre_fits_.emplace_back(rows, Criterion::gaussian);
   }
   middle_mm_ = 0.5 * (low + high);
   half_mm_ = 0.5 * (high - low);
   const auto profiles = profiles_of(sections);
   start_ = least_squares_line(centres(profiles));
+  if (sections.size() > 2) generatrices_.emplace(sections, start_);
   for (const bool of_cone : {false, true}) {
     const Rows now = about(start_, profiles, of_cone);
     base_ = now.y;
@@ -66,6 +71,27 @@ std::vector<CentrePoint> WholeModel::centres(
   return out;
 }
 
+template <class Work>
+void WholeModel::each_off(const AxisLine& axis, const std::vector<std::vector<double>>& filtered_mm,
+                          Work work) const {
+  const Eigen::Vector3d along = Eigen::Vector3d(axis.l, axis.m, 1.0).normalized();
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    const SectionModel& section = sections_[s];
+    const double z = *section.z_mm();
+    const auto [x0, y0] = axis.at(z);
+    const double x = section.x_mm() - x0, y = section.y_mm() - y0;
+    for (std::size_t i = 0; i < filtered_mm[s].size(); ++i) {
+      const double r = section.radius_mm() + filtered_mm[s][i];
+      Eigen::Vector3d off(x + r * towards_[s][i][0], y + r * towards_[s][i][1], 0.0);
+      const double on_axis = off.dot(along);
+      off -= on_axis * along;
+      const double distance = off.norm();
+      work(distance, off.x() / distance, off.y() / distance,
+           (z + on_axis * along.z() - middle_mm_) / half_mm_);
+    }
+  }
+}
+
 WholeModel::Rows WholeModel::about(const AxisLine& axis,
                                    const std::vector<std::vector<double>>& filtered_mm,
                                    bool cone) const {
@@ -73,27 +99,14 @@ WholeModel::Rows WholeModel::about(const AxisLine& axis,
   for (const auto& one : filtered_mm) count += one.size();
   Rows out{Exchange::Rows(static_cast<Eigen::Index>(count), cone ? 6 : 5), {}};
   out.y.reserve(count);
-  const Eigen::Vector3d along = Eigen::Vector3d(axis.l, axis.m, 1.0).normalized();
   Eigen::Index row = 0;
-  for (std::size_t s = 0; s < sections_.size(); ++s) {
-    const SectionModel& section = sections_[s];
-    const double z = *section.z_mm();
-    for (std::size_t i = 0; i < filtered_mm[s].size(); ++i) {
-      const double angle = section.raw().at[i], r = section.radius_mm() + filtered_mm[s][i];
-      const auto [x0, y0] = axis.at(z);
-      Eigen::Vector3d off(section.x_mm() + r * std::cos(angle) - x0,
-                          section.y_mm() + r * std::sin(angle) - y0, 0.0);
-      const double on_axis = off.dot(along);
-      off -= on_axis * along;
-      const double distance = off.norm(), c = off.x() / distance, sine = off.y() / distance;
-      const double t = (z + on_axis * along.z() - middle_mm_) / half_mm_;
-      if (cone)
-        out.rows.row(row++) << 1.0, c, sine, t * c, t * sine, t;
-      else
-        out.rows.row(row++) << 1.0, c, sine, t * c, t * sine;
-      out.y.push_back(distance - mean_radius_mm_);
-    }
-  }
+  each_off(axis, filtered_mm, [&](double distance, double c, double sine, double t) {
+    if (cone)
+      out.rows.row(row++) << 1.0, c, sine, t * c, t * sine, t;
+    else
+      out.rows.row(row++) << 1.0, c, sine, t * c, t * sine;
+    out.y.push_back(distance - mean_radius_mm_);
+  });
   return out;
 }
 
@@ -191,45 +204,6 @@ AxisLine WholeModel::axis_near(const std::vector<std::vector<double>>& filtered_
   return fitted_near(y_near(filtered_mm), criterion, false).axis;
 }
 
-double WholeModel::straightness_of_generatrices(
-    const std::vector<std::vector<double>>& filtered_mm) const {
-  constexpr int generatrices = 72;
-  Exchange::Rows rows(static_cast<Eigen::Index>(sections_.size()), 2);
-  for (std::size_t s = 0; s < sections_.size(); ++s)
-    rows.row(static_cast<Eigen::Index>(s)) << 1.0, (*sections_[s].z_mm() - middle_mm_) / half_mm_;
-  const Exchange line(rows, Criterion::minimum_zone);
-  std::vector<std::vector<double>> angle, distance;
-  for (std::size_t s = 0; s < sections_.size(); ++s) {
-    const SectionModel& section = sections_[s];
-    angle.emplace_back(section.raw().at);
-    distance.emplace_back();
-    const auto [x0, y0] = start_.at(*section.z_mm());
-    for (std::size_t i = 0; i < angle[s].size(); ++i) {
-      const double c = std::cos(angle[s][i]), sine = std::sin(angle[s][i]);
-      distance[s].push_back(section.radius_mm() + filtered_mm[s][i] + (section.x_mm() - x0) * c +
-                            (section.y_mm() - y0) * sine);
-    }
-  }
-  double largest = 0.0;
-  for (int g = 0; g < generatrices; ++g) {
-    const double at = two_pi * g / generatrices;
-    std::vector<double> y;
-    for (std::size_t s = 0; s < sections_.size(); ++s) {
-      const std::size_t n = angle[s].size();
-      const auto behind =
-          static_cast<std::size_t>(std::ranges::lower_bound(angle[s], at) - angle[s].begin()) % n;
-      const std::size_t before = (behind + n - 1) % n;
-      const double step = sections_[s].raw().step(before);
-      const double t = std::remainder(at - angle[s][before], two_pi) / step;
-      y.push_back((1.0 - t) * distance[s][before] + t * distance[s][behind]);
-    }
-    Exchange fit = line;
-    const auto off = fit.off(y, fit(y));
-    largest = std::max(largest, range_of(off).length());
-  }
-  return largest;
-}
-
 std::vector<NamedValue> WholeModel::measured() const {
   return values_of(measured_, profiles_of(sections_));
 }
@@ -269,7 +243,7 @@ std::vector<NamedValue> WholeModel::values_of(
   add("CYLrr", "LSCI", range_of(radii).length());
   if (sections_.size() > 2) {
     add("STRsa", "", smallest_cylinder_mm(centres(filtered_mm)));
-    add("STRsg", "MZLI", straightness_of_generatrices(filtered_mm));
+    add("STRsg", "MZLI", generatrices_->straightness_mm(filtered_mm));
     const Fitted& cone = fits.at({Criterion::gaussian, true});
     const double slope = cone.q[5] / half_mm_;
     add("CYLtt", "LSCO", 2.0 * std::abs(cone.q[5]));
@@ -286,12 +260,14 @@ std::vector<NamedValue> WholeModel::values_of(
 std::vector<NamedValue> WholeModel::against(
     const AxisLine& datum, const std::vector<std::vector<double>>& filtered_mm) const {
   std::vector<NamedValue> values;
-  const Rows distances = about(datum, filtered_mm, false);
+  std::vector<double> distances;
+  each_off(datum, filtered_mm,
+           [&](double distance, double, double, double) { distances.push_back(distance); });
   double circular = 0.0;
   const auto middles = centres(filtered_mm);
   std::size_t row = 0;
   for (std::size_t s = 0; s < sections_.size(); ++s) {
-    const std::span<const double> section(distances.y.data() + row, filtered_mm[s].size());
+    const std::span<const double> section(distances.data() + row, filtered_mm[s].size());
     circular = std::max(circular, range_of(section).length());
     row += filtered_mm[s].size();
   }
@@ -299,7 +275,7 @@ std::vector<NamedValue> WholeModel::against(
     values.push_back({"datum", name, "", value});
   };
   add("runout_circular", circular);
-  add("runout_total", range_of(distances.y).length());
+  add("runout_total", range_of(distances).length());
   add("coaxiality", coaxiality_mm(middles, datum));
   add("parallelism", smallest_parallel_cylinder_mm(middles, datum));
   return values;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "form/axis_line.hpp"
+#include "form/generatrices.hpp"
 #include "form/section_model.hpp"
 #include "form/uncertainty.hpp"
 
@@ -63,14 +65,20 @@ class WholeModel {
   /// Eq. 273 about an axis: distances from it less the mean radius, and their derivatives.
   Rows about(const AxisLine& axis, const std::vector<std::vector<double>>& filtered_mm,
              bool cone) const;
+  /// Calls work(distance from an axis in mm, its direction's cosine and sine, t along the axis) for
+  /// every place.
+  template <class Work>
+  void each_off(const AxisLine& axis, const std::vector<std::vector<double>>& filtered_mm,
+                Work work) const;
   AxisLine moved(const AxisLine& axis, const Eigen::VectorXd& q) const;
-  double straightness_of_generatrices(const std::vector<std::vector<double>>& filtered_mm) const;
 
   const std::vector<SectionModel>& sections_;
+  std::vector<std::vector<std::array<double, 2>>> towards_;  ///< cos, sin of a section's angles
   double middle_mm_ = 0.0, half_mm_ = 1.0, mean_radius_mm_ = 0.0;
   AxisLine start_;
   std::vector<double> base_;  ///< y of `about(start_)` of the measured profiles
   std::vector<Exchange> centre_fits_;
+  std::optional<Generatrices> generatrices_;             ///< about `start_`
   Fits measured_;                                        ///< in space
   std::map<std::pair<Criterion, bool>, Exchange> near_;  ///< about `start_`, at the optimum
 };
