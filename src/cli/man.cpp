@@ -68,7 +68,7 @@ std::string manual(const CLI::App& app) {
       ".SH SYNOPSIS\n.B trueaxis\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n"
       ".SH DESCRIPTION\n";
   text += troff(app.get_description()) +
-          "\n.PP\nFiles in and out, and every key of them, are in docs/reference/files.md; the "
+          "\n.PP\nFiles in and out, and every key of them, are in docs/index.md; the "
           "first half "
           "hour in docs/tutorial/first-axis.md; words and symbols in "
           "docs/reference/glossary.md.\n.SH COMMANDS\n";

@@ -33,7 +33,7 @@ struct ImportedRecording {
 /// column, a unit, radius or diameter) with the command that would read the file.
 ImportedRecording import_recording(const std::string& path, const RecordingOptions& options = {});
 
-/// A stream of TrueAxis (files.md) or, where it is none and all of it is clear, a recording of
+/// A stream of TrueAxis (stream.md) or, where it is none and all of it is clear, a recording of
 /// another program; `ProbeStream::read_as` then says how it was read.
 /// @throws InputError as read_stream_csv() or import_recording() do
 ProbeStream read_recording(const std::string& path, const RecordingOptions& options = {});

@@ -40,7 +40,7 @@ std::set<std::string> keys_in(const std::string& source) {
 }
 
 TEST(DocsWords, EveryKeyOfAScenarioIsOnThePage) {
-  const std::string scenario = section_of(page("reference/files.md"), "## Scenario (TOML)");
+  const std::string scenario = page("reference/scenario.md");
   ASSERT_FALSE(scenario.empty());
   auto keys = keys_in("src/simulate/files/scenario_toml.cpp");
   for (const char* const made :
@@ -50,11 +50,11 @@ TEST(DocsWords, EveryKeyOfAScenarioIsOnThePage) {
   for (const std::string& key : keys)
     EXPECT_TRUE(contains(scenario, "`" + key) || contains(scenario, "[" + key + "]") ||
                 contains(scenario, "." + key + "]"))
-        << "docs/reference/files.md, Scenario, lacks " << key;
+        << "docs/reference/scenario.md lacks " << key;
 }
 
 TEST(DocsWords, EveryKeyOfASweepIsOnThePage) {
-  const std::string sweep = section_of(page("reference/files.md"), "## Sweep (TOML)");
+  const std::string sweep = page("reference/sweep.md");
   std::size_t found = 0;
   for (const char* const source :
        {"src/study/sweep/files/sweep_axes.cpp", "src/study/sweep/files/sweep_toml.cpp",
@@ -63,7 +63,7 @@ TEST(DocsWords, EveryKeyOfASweepIsOnThePage) {
       ++found;
       EXPECT_TRUE(contains(sweep, "`" + key) || contains(sweep, "[" + key + "]") ||
                   contains(sweep, "." + key + "]"))
-          << "docs/reference/files.md, Sweep, lacks " << key;
+          << "docs/reference/sweep.md lacks " << key;
     }
   EXPECT_GT(found, 20u);
 }
@@ -135,7 +135,7 @@ TEST(DocsWords, CodesAreSaidWhereTheyAreUsed) {
 }
 
 TEST(DocsWords, TheDrawingOfTheFrameIsWhereItIsNeeded) {
-  for (const char* const name : {"tutorial/first-axis.md", "reference/files.md",
+  for (const char* const name : {"tutorial/first-axis.md", "reference/job.md",
                                  "explanation/theory.md", "reference/glossary.md"})
     EXPECT_TRUE(contains(page(name), "](../images/frame.svg)")) << name;
   const std::string drawing = page("images/frame.svg");

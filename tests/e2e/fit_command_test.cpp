@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `trueaxis fit`: the JSON of files.md, streams from anywhere, and what is not determined.
+// `trueaxis fit`: the JSON of outputs.md, streams from anywhere, and what is not determined.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/images/signs.svg and the table of signs in files.md, word by word: every expected angle here
+// docs/images/signs.svg and the table of signs in job.md, word by word: every expected angle here
 // is written down from the words, "a mark at C = 10° then stands at …".
 #include <cmath>
 #include <numbers>

@@ -246,7 +246,7 @@ std::string objection(ControlFormat format, double c_step_deg, double step_mm,
   return objection_to(table, of.target, of.tool);
 }
 
-// docs/reference/files.md: the largest of each that is made, and the next that is not.
+// docs/reference/job.md: the largest of each that is made, and the next that is not.
 TEST(ControlTables, EachHasItsLargest) {
   using enum ControlFormat;
   struct Edge {

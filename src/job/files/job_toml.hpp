@@ -8,7 +8,7 @@
 
 namespace trueaxis {
 
-/// Reads a job (TOML, keys with their unit as suffix; docs/reference/files.md lists them).
+/// Reads a job (TOML, keys with their unit as suffix; docs/reference/job.md lists them).
 /// @throws InputError with every diagnostic: unknown keys, wrong types, values out of range.
 JobFile read_job_toml(const std::string& path);
 /// The same of `content`; `path` names it and places relative file names.
