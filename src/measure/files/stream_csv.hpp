@@ -30,7 +30,7 @@ struct StreamReadOptions {
 /// What `options` say of the readings, as options of a command: "--diameter".
 std::vector<std::string> words_of(const StreamReadOptions& options);
 
-/// Reads the CSV of docs/reference/stream.md from a file, or from standard input when `path` is "-".
+/// Reads the CSV of stream.md from a file, or from standard input when `path` is "-".
 /// @throws InputError with every diagnostic (file, line, column, what to do).
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options = {});
 
