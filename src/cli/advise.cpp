@@ -110,40 +110,34 @@ bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
     expect_only(
         command,
         {"stream", "--machine", "--errors", "--sign", "--large-errors", "--program", "--json",
-         "--output", "--force", "--false-alarm", "--check", "--verbose", "--noise"},
-        "is of a stream: --machine has none");
+         "--output", "--force", "--false-alarm", "--check", "--verbose", "--noise-um"},
+        "is for a stream: --machine has none");
     if (!options.data.empty())
-      expect_none(command, {"--noise"}, "is of a first plan: a measurement states its own");
+      expect_none(command, {"--noise-um"}, "is for a first plan: a measurement states its own");
   } else {
     expect_one_stream(command, options.data.size());
-    expect_none(command, {"--json", "--force"}, "is of a machine: name it with --machine");
+    expect_none(command, {"--json", "--force"}, "is for a machine: name it with --machine");
   }
   return machine;
 }
 
 }  // namespace
 
-void add_advise(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("advise", "the next measurement, and what every other one would tell");
+void add_advise(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<AdviseArguments>();
-  command->add_option(
-      "stream", options->data,
-      "probe stream (CSV), '-' for standard input, or a job (.toml); with --machine "
-      "its measurements (CSV), or none before any");
+  command->add_option("stream", options->data,
+                      "probe stream (CSV) or job (.toml); with --machine its measurements, if any");
   options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
   options->machine.add_to(*command);
-  options->results.add(
-      *command, "-o,--output", "trueaxis.measurement_plan",
-      "with --machine: write the positions of the next measurement here (CSV), to be "
-      "filled in; '-' prints them");
+  options->results.add(*command, "-o,--output", "trueaxis.measurement_plan",
+                       "--machine: positions of the next measurement (CSV), to be filled in");
   options->results.add(*command, "--json", "trueaxis.machine_diagnosis",
-                       "with --machine: write everything here (JSON), '-' prints it");
+                       "--machine: result (JSON); - prints it");
   add_force(*command, options->results.force);
   const CLI::Option* surface = options->association.add_to(*command);
   add_false_alarm(*command, options->false_alarm);
-  add_verbose(*command, options->verbose)->description("of a machine: print everything");
+  add_verbose(*command, options->verbose);
   add_check(*command, options->check);
   command->callback([options, command, surface, &exit_code] {
     if (is_of_machine(*command, *options)) {

@@ -63,14 +63,12 @@ int execute(const AxisBiasArguments& options) {
 
 }  // namespace
 
-void add_axis_bias(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "axis-bias", "what each effect does to the axis when the model lacks it, and when it has it");
+void add_axis_bias(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<AxisBiasArguments>();
   command->add_option("scenario", options->scenario,
-                      "part and plan (TOML); default: those of the catalogue's figures");
-  add_option(*command, "-o,--output", options->folder, a_place(),
-             "folder for axis_bias.csv, axis_bias.json, axis_bias.md, made if need be");
+                      "part and plan (TOML, default those of docs/evidence/axis_bias.md)");
+  add_place(*command, "-o,--output", options->folder,
+            "folder for axis_bias.csv, .json and .md (default none)");
   add_force(*command, options->force);
   add_check(*command, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });

@@ -73,22 +73,18 @@ int execute(const CalibrateArguments& options) {
 
 }  // namespace
 
-void add_calibrate(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("calibrate", "the errors of a machine from measurements on it");
+void add_calibrate(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<CalibrateArguments>();
   options->machine.add_machine_to(*command);
   command
       ->add_option("data", options->data,
-                   "measurements (CSV) of kinds ball, bar, array, axis: together they are one")
+                   "measurements (CSV) of kinds ball, bar, array, axis, together")
       ->required();
   options->machine.add_errors_to(*command);
   Results& results = options->results;
-  results
-      .add(*command, "-o,--output", "trueaxis.errors",
-           "write the errors here (TOML): those given and those found")
+  results.add(*command, "-o,--output", "trueaxis.errors", "errors, those given and found (TOML)")
       ->required();
-  results.add(*command, "--json", "trueaxis.calibration", "write the result here, '-' prints it");
+  results.add(*command, "--json", "trueaxis.calibration", "result (JSON); - prints it");
   add_force(*command, options->results.force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);

@@ -12,8 +12,8 @@
 namespace trueaxis::cli {
 
 CLI::Option* add_check(CLI::App& command, bool& check) {
-  return command.add_flag("--check", check,
-                          "read everything, say what would be done, compute and write nothing");
+  return command.add_flag("--check,--dry-run", check,
+                          "read all input and list what would be done; write nothing");
 }
 
 namespace {

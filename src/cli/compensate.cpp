@@ -101,37 +101,32 @@ int execute(const CompensateArguments& options) {
 
 void add_accuracy(CLI::App& command, CompensateArguments& options) {
   add_option(command, "--method", options.method, one_of({"exact", "differential"}),
-             "exact, or differential: Δq = -J⁻¹ L (exact)");
+             "method, differential is Δq = -J⁻¹ L (default exact)");
   add_option(command, "--rotary", options.rotary, one_of({"moved", "all"}),
-             "rotary axes that a block may correct: moved (those that it moves), all (moved)");
+             "rotary axes that a block may correct (default moved: those it moves)");
   add_option(command, "--tolerance-um", options.tolerance_um,
              number_in(0.0, true, 1e4, "a length above 0, up to 10000 um"),
-             "cut G1 blocks in pieces: how far the tip may be from the line between their ends");
-  add_option(command, "--arcs", options.arcs_mm,
+             "split G1 blocks: deviation allowed from the straight line, µm");
+  add_option(command, "--arcs-mm", options.arcs_mm,
              number_in(0.0, true, 1.0, "a length above 0, up to 1 mm"),
-             "replace G2 and G3 by chords: how far these may be from the arc, in mm");
+             "replace G2 and G3 by chords: deviation allowed from the arc, mm");
   add_option(command, "--decimals", options.compensation.decimals, CLI::Range(0, 15),
-             "of changed X Y Z, where the program has not more; two more under G20 (4)");
+             "decimals of changed X Y Z, two more under G20 (default 4)");
   add_option(command, "--angle-decimals", options.compensation.angle_decimals, CLI::Range(0, 15),
-             "of changed A B C, where the program has not more (5)");
-  add_option(command, "--threads", options.compensation.threads, CLI::Range(0, 1024),
-             "0: as many as there are (0)");
+             "decimals of changed A B C (default 5)");
+  add_threads(command, options.compensation.threads);
 }
 
 }  // namespace
 
-void add_compensate(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "compensate",
-      "rewrites a program for a machine with errors, byte for byte but for positions");
+void add_compensate(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<CompensateArguments>();
-  command->add_option("program", options->program, "a program of ISO 6983 words")->required();
-  command->add_option("--machine", options->machine.machine, "the machine (TOML)")->required();
+  command->add_option("program", options->program, "program of ISO 6983 words")->required();
+  options->machine.add_machine_to(*command);
   options->machine.add_errors_to(*command);
   Results& results = options->results;
-  results.add(*command, "-o,--output", "", "the new program")->required();
-  results.add(*command, "--json", "trueaxis.compensation",
-              "write the result here (JSON), '-' prints it");
+  results.add(*command, "-o,--output", "", "new program")->required();
+  results.add(*command, "--json", "trueaxis.compensation", "result (JSON); - prints it");
   add_accuracy(*command, *options);
   add_force(*command, options->results.force);
   add_verbose(*command, options->verbose);

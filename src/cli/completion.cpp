@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -41,15 +42,31 @@ std::string words_of(const DescribedCommand& command) {
 }
 
 std::string case_of(const DescribedCommand& command) {
-  return fmt::format("    {})\n      words='{}'\n      case $previous in\n{}      esac ;;\n",
+  return fmt::format("    '{}')\n      words='{}'\n      case $previous in\n{}      esac ;;\n",
                      command.name, words_of(command), values_of(command));
 }
 
-std::string names_of(const std::vector<DescribedCommand>& commands) {
-  std::string names;
+/// The next words of commands' names after the word `before`, each once.
+std::string names_of(const std::vector<DescribedCommand>& commands, const std::string& before) {
+  std::vector<std::string> names;
+  for (const DescribedCommand& command : commands) {
+    if (!before.empty() && !command.name.starts_with(before + ' ')) continue;
+    const std::string rest = command.name.substr(before.empty() ? 0 : before.size() + 1);
+    const std::string word = rest.substr(0, rest.find(' '));
+    if (std::ranges::find(names, word) == names.end()) names.push_back(word);
+  }
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+/// The first words of names of two.
+std::vector<std::string> first_words(const std::vector<DescribedCommand>& commands) {
+  std::vector<std::string> words;
   for (const DescribedCommand& command : commands)
-    names += (names.empty() ? "" : " ") + command.name;
-  return names;
+    if (const std::size_t blank = command.name.find(' ');
+        blank != std::string::npos &&
+        std::ranges::find(words, command.name.substr(0, blank)) == words.end())
+      words.push_back(command.name.substr(0, blank));
+  return words;
 }
 
 }  // namespace
@@ -60,16 +77,26 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
                        "` from its tables of options\n";
   if (shell == "zsh")
     script = "#compdef trueaxis\n" + script + "autoload -U +X bashcompinit && bashcompinit\n";
+  const std::vector<std::string> firsts = first_words(commands);
   script +=
       "_trueaxis() {\n"
       "  local now=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+      "  local name=${COMP_WORDS[1]} behind=1 value=\n"
       "  local words='" +
-      names_of(commands) +
-      " --help --version' value=\n"
+      names_of(commands, "") +
+      " --help --version'\n"
       "  COMPREPLY=()\n"
-      "  if [ \"$COMP_CWORD\" -gt 1 ]; then\n"
+      "  case $name in\n";
+  for (const std::string& word : firsts)
+    script += fmt::format(
+        "    {}) if [ \"$COMP_CWORD\" -gt 1 ]; then words='{} --help'; fi\n"
+        "      name=\"$name ${{COMP_WORDS[2]}}\" behind=2 ;;\n",
+        word, names_of(commands, word));
+  script +=
+      "  esac\n"
+      "  if [ \"$COMP_CWORD\" -gt \"$behind\" ]; then\n"
       "    words=\n"
-      "    case ${COMP_WORDS[1]} in\n";
+      "    case $name in\n";
   for (const DescribedCommand& command : commands) script += case_of(command);
   script +=
       "    esac\n"
@@ -91,13 +118,11 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
   return script;
 }
 
-void add_completion(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "completion", "prints what makes a shell complete trueaxis: source <(trueaxis completion)");
+void add_completion(CLI::App* command, int& exit_code) {
   auto shell = std::make_shared<std::string>("bash");
-  add_option(*command, "shell", *shell, one_of({"bash", "zsh"}), "bash (default) or zsh");
-  command->callback([&app, shell, &exit_code] {
-    std::cout << completion_script(app, *shell);
+  add_option(*command, "shell", *shell, one_of({"bash", "zsh"}), "shell (default bash)");
+  command->callback([command, shell, &exit_code] {
+    std::cout << completion_script(*command->get_parent(), *shell);
     exit_code = done;
   });
 }

@@ -7,7 +7,6 @@
 #include "base/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/machine_diagnosed.hpp"
 #include "cli/options.hpp"
 #include "cli/results.hpp"
 #include "cli/stream_options.hpp"
@@ -26,12 +25,10 @@ namespace trueaxis::cli {
 namespace {
 
 struct DiagnoseArguments {
-  std::vector<std::string> data;  ///< a stream, or the measurements of a machine
   StreamOptions stream;
   AssociationOptions association;
   double false_alarm = DiagnoseOptions{}.false_alarm;
   Results results;
-  MachineDiagnosed machine;
   bool verbose = false, check = false;
 };
 
@@ -83,54 +80,19 @@ int execute(const DiagnoseArguments& options) {
   return exit_code_of(broken ? *broken : diagnosis.extended, stream.source);
 }
 
-/// A machine's measurements, or one stream of a surface.
-int execute_either(const CLI::App& command, DiagnoseArguments& options, bool surface_said) {
-  MachineDiagnosed& run = options.machine;
-  if (!run.machine.machine.empty()) {
-    expect_only(
-        command,
-        {"stream", "--machine", "--errors", "--sign", "--large-errors", "--program", "--json",
-         "--output", "--report", "--force", "--false-alarm", "--check", "--verbose"},
-        "is of a stream: --machine has none");
-    run.data = options.data;
-    run.false_alarm = options.false_alarm;
-    run.verbose = options.verbose;
-    run.check = options.check;
-    return run.diagnose(options.results);
-  }
-  expect_one_stream(command, options.data.size());
-  if (!surface_said) throw CLI::RequiredError("--surface");
-  options.stream.path = options.data.front();
-  return execute(options);
-}
-
 }  // namespace
 
-void add_diagnose(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "diagnose",
-      "find and name what the ideal surface misses in a stream, or the model of a "
-      "machine in measurements on it");
+void add_diagnose(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<DiagnoseArguments>();
-  command
-      ->add_option("stream", options->data,
-                   "probe stream (CSV), '-' for standard input; with --machine the measurements "
-                   "(CSV) of kinds ball, bar, array, axis, which together are one")
-      ->required();
-  options->stream.add_meaning_to(*command);
+  options->stream.add_to(*command);
   options->stream.add_range_to(*command);
-  const CLI::Option* const surface = options->association.add_to(*command);
-  options->machine.add_to(*command);
-  options->results.add(*command, "-o,--output", "trueaxis.errors",
-                       "with --machine: write its errors here (TOML), those given and those found");
+  options->association.add_to(*command)->required();
   add_false_alarm(*command, options->false_alarm);
   add_stream_results(*command, options->results, "trueaxis.diagnosis",
-                     "what is left before and after here (CSV)");
+                     "its residual before and after");
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
-  command->callback([options, command, surface, &exit_code] {
-    exit_code = execute_either(*command, *options, surface->count() > 0);
-  });
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 
 }  // namespace trueaxis::cli

@@ -26,7 +26,7 @@ void expect_read_as_then(const std::string& diagnosis_path, const Diagnosis& dia
   if (reads_as_then(diagnosis, measured, simulated)) return;
   throw InputError(diagnosis_path,
                    "the stream does not leave the residuals that it states: repeat the "
-                   "--diameter, --relative, --nominal-radius, --ball-radius, --z-from-mm or "
+                   "--diameter, --relative, --nominal-radius-mm, --ball-radius-mm, --z-from-mm or "
                    "--z-to-mm of the diagnosis");
 }
 

@@ -20,9 +20,10 @@ struct EffectsArguments {
 
 const Effect& known_effect(const std::string& id) {
   if (const Effect* effect = find_effect(id)) return *effect;
-  throw InputError(id, fmt::format("is no effect of the catalogue; the nearest are {} ('trueaxis "
-                                   "effects' lists all)",
-                                   fmt::join(nearest_effects(id), ", ")));
+  throw InputError(
+      id, fmt::format("is not in the catalogue; the nearest are {} (trueaxis effects lists "
+                      "all)",
+                      fmt::join(nearest_effects(id), ", ")));
 }
 
 int execute(const EffectsArguments& options) {
@@ -43,13 +44,10 @@ int execute(const EffectsArguments& options) {
 
 }  // namespace
 
-void add_effects(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("effects", "list what the ideal surface misses, or explain one effect");
+void add_effects(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<EffectsArguments>();
-  command->add_option("id", options->id, "effect to explain, as part.bow");
-  command->add_flag("--markdown", options->markdown,
-                    "print the whole catalogue as docs/reference/effects.md");
+  command->add_option("id", options->id, "cause to explain, as part.bow");
+  command->add_flag("--markdown", options->markdown, "print the catalogue as a page");
   command->add_flag("--json", options->json, "print as JSON (trueaxis.effects/1)");
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

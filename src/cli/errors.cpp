@@ -73,7 +73,7 @@ int execute(const ErrorsArguments& options) {
     throw CLI::ValidationError("--output-sign",
                                "is needed: an " + options.format + " file does not say its sign");
   if (options.format == "toml" && !options.output_sign.empty())
-    throw CLI::ValidationError("--output-sign", "is of --format etalon or isg");
+    throw CLI::ValidationError("--output-sign", "is for --format etalon or isg");
   const MachineFile file = options.machine.read_machine();
   const auto [errors, hashes, remarks] = options.machine.read_errors_of(file);
   const AxisPositions at = positions_of(options.at, file.machine);
@@ -96,25 +96,20 @@ int execute(const ErrorsArguments& options) {
 
 }  // namespace
 
-void add_errors(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("errors", "the errors of a machine at a position, by name (ISO 230-1)");
+void add_errors(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<ErrorsArguments>();
   options->machine.add_machine_to(*command);
   options->machine.add_errors_to(*command);
   command->add_option("--at", options->at,
-                      "position: \"X=50,A=-35\", mm and deg; axes that are left out at 0");
-  options->results.add(*command, "--json", "trueaxis.errors_at",
-                       "write the result here, '-' prints it");
-  options->results.add(*command, "-o,--output", "trueaxis.errors",
-                       "write the errors of all files here");
+                      "position in mm and deg, as X=50,A=-35 (default all axes at 0)");
+  options->results.add(*command, "--json", "trueaxis.errors_at", "result (JSON); - prints it");
+  options->results.add(*command, "-o,--output", "trueaxis.errors", "errors of all files together");
   add_option(*command, "--format", options->format, one_of({"toml", "etalon", "isg"}),
-             "of --output: toml, etalon or isg (toml)");
+             "format of --output (default toml)");
   add_option(*command, "--output-sign", options->output_sign, a_sign(),
-             "of component errors in an etalon or isg file");
+             "sign of component errors in an etalon or isg file");
   add_option(*command, "--points", options->points, CLI::Range(2, 100000),
-             "of an etalon or isg table over the travel of an axis whose errors are none "
-             "(101)");
+             "points of an etalon or isg table for an axis not yet tabulated (default 101)");
   add_force(*command, options->results.force);
   command->callback([options, &exit_code] {
     if (options->format != "toml") options->results.say("--output", "trueaxis." + options->format);

@@ -9,6 +9,7 @@
 #include "cli/checked_fit.hpp"
 #include "cli/commands.hpp"
 #include "cli/fit_criterion.hpp"
+#include "cli/fit_points.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/results.hpp"
@@ -29,6 +30,7 @@ struct FitArguments {
   AssociationOptions association;
   Results results;
   FitCriterion criterion;
+  FitPoints points;
   bool verbose = false, check = false;
 };
 
@@ -74,29 +76,52 @@ int execute(const FitArguments& options) {
   return exit_code_of(result, stream.source);
 }
 
+int fit_points(FitArguments& options, const CLI::App& command) {
+  if (command.count("--criterion") == 0) options.criterion.name = "gaussian";
+  if (options.criterion.along_probe())
+    throw CLI::ValidationError("--criterion", "probe is for a stream: points have no probe line");
+  options.points.expect_fitting(command, options.criterion.name);
+  if (options.points.path.empty()) options.points.path = options.stream.path;
+  if (options.points.path.empty()) throw CLI::RequiredError("--points");
+  options.results.say("--json", "trueaxis.association");
+  options.results.say("--residuals", "trueaxis.distances");
+  if (options.results["--x3p"] == "-")
+    throw CLI::ValidationError("--x3p", "is a binary file: give it a name");
+  return options.points.execute(options.criterion.name, options.results, options.check);
+}
+
+int fit_stream(FitArguments& options, const CLI::App& command) {
+  if (options.stream.path.empty()) throw CLI::RequiredError("stream");
+  if (command.count("--surface") == 0) throw CLI::RequiredError("--surface");
+  expect_none(command, {"--material", "--unit", "--array", "--qif", "--x3p", "--threads"},
+              "is for points: name them with --points");
+  if (options.results.asked("--report") &&
+      !is_diagnosed(surface_from_id(options.association.surface)))
+    throw CLI::ValidationError("--report",
+                               "is for a cone, cylinder, plane or section: leave it out, --json "
+                               "has the numbers");
+  options.criterion.expect_fitting(options.association, options.results, command);
+  return options.criterion.along_probe()
+             ? execute(options)
+             : options.criterion.execute(options.stream, options.association, options.results);
+}
+
 }  // namespace
 
-void add_fit(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("fit", "associate a surface with a probe stream");
+void add_fit(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<FitArguments>();
-  options->stream.add_to(*command);
+  command->add_option("stream", options->stream.path, "probe stream (CSV); - for standard input");
+  options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
-  options->association.add_to(*command, true)->required();
+  options->association.add_to(*command, true);
   options->criterion.add_to(*command, options->results);
-  add_stream_results(*command, options->results, "trueaxis.fit", "its residual here (CSV)");
+  add_stream_results(*command, options->results, "trueaxis.fit", "its residual");
+  options->points.add_to(*command, options->results);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
   command->callback([options, command, &exit_code] {
-    if (options->results.asked("--report") &&
-        !is_diagnosed(surface_from_id(options->association.surface)))
-      throw CLI::ValidationError("--report",
-                                 "is of a cone, cylinder, plane or section: leave it "
-                                 "out, --json has the numbers");
-    options->criterion.expect_fitting(options->association, options->results, *command);
     exit_code =
-        options->criterion.along_probe()
-            ? execute(*options)
-            : options->criterion.execute(options->stream, options->association, options->results);
+        options->points.asked() ? fit_points(*options, *command) : fit_stream(*options, *command);
   });
 }
 

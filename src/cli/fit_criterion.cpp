@@ -16,7 +16,6 @@ namespace trueaxis::cli {
 namespace {
 
 Criterion criterion_of(const std::string& name) {
-  if (name == "orthogonal") return Criterion::gaussian;
   const auto at = std::ranges::find(criterion_names, name);
   return static_cast<Criterion>(at - criterion_names.begin());
 }
@@ -24,13 +23,13 @@ Criterion criterion_of(const std::string& name) {
 }  // namespace
 
 void FitCriterion::add_to(CLI::App& command, Results& results) {
-  add_option(
-      command, "--criterion", name,
-      one_of({"probe", "orthogonal", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}),
-      "probe (default: least squares along the probe line), or of the readings as "
-      "points: orthogonal, minimum_zone, minimum_circumscribed, maximum_inscribed");
+  add_option(command, "--criterion", name,
+             one_of({"probe", "gaussian", "minimum_zone", "minimum_circumscribed",
+                     "maximum_inscribed", "constrained"}),
+             "criterion (default probe, for points gaussian)")
+      ->group(surface_group);
   results.add(command, "--certificate", "trueaxis.certificate",
-              "of these: write what proves the optimum here, '-' prints it");
+              "proof of the optimum, for any criterion but probe");
 }
 
 void FitCriterion::expect_fitting(const AssociationOptions& association, const Results& results,
@@ -40,11 +39,12 @@ void FitCriterion::expect_fitting(const AssociationOptions& association, const R
   };
   if (along_probe()) {
     if (results.asked("--certificate"))
-      refuse("--certificate", "is of a --criterion other than probe, whose proof is its U");
+      refuse("--certificate", "needs a --criterion other than probe, whose proof is its U");
     return;
   }
-  for (const char* option : {"--loss", "--noise", "--coverage-factor", "--report", "--check"})
-    if (command.count(option) > 0) refuse(option, "is of --criterion probe: leave it out");
+  for (const char* option : {"--loss", "--noise-um", "--coverage-factor", "--report", "--check"})
+    if (command.count(option) > 0) refuse(option, "is for --criterion probe: leave it out");
+  if (name == "constrained") refuse("--criterion", "constrained is for points");
   const std::string objection =
       association_objection(element_of(surface_from_id(association.surface)), criterion_of(name));
   if (!objection.empty()) refuse("--criterion", objection);

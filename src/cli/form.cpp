@@ -21,6 +21,8 @@
 namespace trueaxis::cli {
 namespace {
 
+constexpr const char* form_group = "Evaluation";
+
 struct FormArguments {
   StreamOptions stream;
   FormOptions form;
@@ -34,7 +36,7 @@ struct FormArguments {
 /// "1-50", "15-500", or one number, the upper.
 void parse_band(const std::string& text, FormOptions& form) {
   const auto refuse = [&] {
-    throw CLI::ValidationError("--upr", text + " is no pass band such as 1-50");
+    throw CLI::ValidationError("--upr", text + " is not a pass band such as 1-50");
   };
   const auto number = [&](std::string_view part) {
     double value = 0.0;
@@ -108,70 +110,79 @@ int execute(const FormArguments& options) {
 
 void add_filter(CLI::App& command, FormArguments& options) {
   add_option(command, "--filter", options.filter, one_of({"gaussian", "robust", "spline", "none"}),
-             "gaussian (default, ISO 16610-21), robust (-31), spline (-22) or none");
-  command.add_option("--upr", options.upr,
-                     "pass band, undulations per revolution (1-50): 1-15, 1-150, 1-500, 15-500");
-  add_option(command, "--spindle", options.spindle, a_place(),
-             "JSON of `trueaxis spindle`: its error motion is taken off, its u counts");
+             "profile filter (default gaussian)")
+      ->group(form_group);
+  command.add_option("--upr", options.upr, "pass band, undulations per revolution (default 1-50)")
+      ->type_name("LOW-HIGH")
+      ->group(form_group);
+  add_place(command, "--spindle", options.spindle,
+            "result of spindle --json, whose error motion is subtracted")
+      ->group(form_group);
   add_option(command, "--spindle-range-um", options.spindle_range_um, a_length(),
-             "range of a synchronous error motion that is not known by its orders, in U");
+             "range of unknown synchronous error motion, in U, µm (default 0)")
+      ->group(form_group);
 }
 
 void add_rest(CLI::App& command, FormArguments& options) {
-  command.add_flag("--bore", options.form.bore, "probed from inside");
-  add_option(command, "--ball-radius", options.form.ball_radius_mm, a_length(),
-             "X_M is the centre of a ball of this radius, mm");
-  add_option(command, "--noise", options.noise_um, a_length(),
-             "standard deviation of one reading, µm");
-  add_option(command, "--datum", options.datum, a_place(),
-             "probe stream (CSV) of the datum, in the same clamping (the spindle axis)");
+  command.add_flag("--bore", options.form.bore, "the part is probed from inside")
+      ->group(readings_group);
+  add_option(command, "--ball-radius-mm", options.form.ball_radius_mm, a_length(),
+             "ball radius if X_M is the ball's centre, mm (default 0)")
+      ->group(readings_group);
+  add_option(command, "--noise-um", options.noise_um, a_length(),
+             "standard deviation of one reading, µm (default from the data)")
+      ->group(readings_group);
+  add_place(command, "--datum", options.datum,
+            "stream of the datum in the same clamping (default the spindle axis)")
+      ->group(form_group);
   add_option(command, "--datum-association", options.datum_association,
              one_of({"gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}),
-             "gaussian (default), minimum_zone, minimum_circumscribed (a shaft's of ISO "
-             "5459:2011) or maximum_inscribed (a bore's)");
-  command.add_option("--tolerance-um", options.tolerances,
-                     "RONt=2,CYLt=5: judged by ISO 14253-1, exit 1 where one is not proven met");
-  add_option(command, "--coverage-factor", options.form.coverage_factor,
-             number_in(0.0, true, 100.0, "a number above 0, up to 100"), "k of U = k u (2)");
+             "association of the datum (default gaussian)")
+      ->group(form_group);
+  command
+      .add_option("--tolerance-um", options.tolerances,
+                  "tolerances, as RONt=2,CYLt=5; exit 1 unless proven met (ISO 14253-1)")
+      ->group(form_group);
+  add_coverage_factor(command, options.form.coverage_factor)->group(form_group);
   add_option(command, "--trials", options.form.trials, CLI::Range(10, 1000000),
-             "of the Monte Carlo behind U (400)");
-  command.add_option("--seed", options.form.seed, "of the Monte Carlo (12181)");
-  add_option(command, "--threads", options.form.threads, CLI::Range(0, 1024),
-             "as many as there are (0)");
+             "Monte Carlo for U: trials (default 400), seed (default 12181)");
+  command.add_option("--seed", options.form.seed,
+                     "Monte Carlo for U: trials (default 400), seed (default 12181)");
+  add_threads(command, options.form.threads);
   Results& results = options.results;
-  results.add(command, "--json", "trueaxis.form", "write the result here (JSON), '-' prints it");
+  results.add(command, "--json", "trueaxis.form", "result (JSON); - prints it");
   results.add(command, "--profile", "trueaxis.form_profile",
-              "write the profiles here (CSV), before and behind the filter; '-' prints them");
+              "profiles before and after the filter (CSV)");
   results.add(command, "--qif", "trueaxis.qif",
-              "write a QIF 3.0 results document here (XML): features with their form, and what "
-              "has a tolerance as a characteristic; '-' prints it");
+              "features and toleranced characteristics (QIF 3.0, XML)");
   add_force(command, results.force);
   add_verbose(command, options.verbose);
 }
 
 }  // namespace
 
-void add_form(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "form", "roundness, cylindricity, straightness, flatness and run-out (ISO 12181, 1101)");
+void add_form(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<FormArguments>();
-  options->stream.add_to(*command,
-                         "probe stream (CSV), or points x y z (with --element); '-' for standard "
-                         "input");
+  options->stream.add_to(*command, "probe stream (CSV), or points x y z; - for standard input");
   options->stream.add_range_to(*command);
   auto* element = add_option(*command, "--element", options->element,
                              one_of({"circle", "cylinder", "plane", "line"}),
-                             "the file holds points x y z of a circle, cylinder, plane or line");
+                             "element of the points x y z in the file");
+  element->group(points_group);
   add_option(*command, "--unit", options->unit, one_of({"mm", "um", "m", "in"}),
-             "of the points: mm, um, m or in (mm)")
-      ->needs(element);
-  add_option(*command, "--array", options->array, a_place(), array_help)->needs(element);
+             "unit of the points (default mm)")
+      ->needs(element)
+      ->group(points_group);
+  add_place(*command, "--array", options->array, array_help)
+      ->type_name("ARRAY")
+      ->needs(element)
+      ->group(points_group);
   add_filter(*command, *options);
   add_rest(*command, *options);
   command->callback([options, &exit_code] {
     if (!options->element.empty() && (options->stream.says_anything() || !options->datum.empty()))
       throw CLI::ValidationError("--element",
-                                 "points have no X_M and no datum: leave out what says of these");
+                                 "points have no X_M and no datum: leave out their options");
     exit_code = execute(*options);
   });
 }

@@ -56,16 +56,14 @@ int execute(const ImportArguments& options) {
 
 }  // namespace
 
-void add_import(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "import", "another program's recording as a stream, and a job to begin with");
+void add_import(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<ImportArguments>();
-  options->stream.add_to(*command,
-                         "spreadsheet (CSV or text), LinuxCNC probe log or halsampler file, DPRNT, "
-                         "camonitor, TwinCAT Scope");
-  add_option(*command, "-o,--output", options->output, a_place(), "the stream (CSV), '-' prints it")
-      ->required();
-  add_option(*command, "--job", options->job, a_place(), "the job (TOML); else beside the stream");
+  options->stream.add_to(
+      *command,
+      "spreadsheet (CSV, text), LinuxCNC probe log or halsampler, DPRNT, camonitor, "
+      "TwinCAT Scope");
+  add_place(*command, "-o,--output", options->output, "stream (CSV); - prints it")->required();
+  add_place(*command, "--job", options->job, "job (TOML, default next to the stream)");
   add_force(*command, options->force);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

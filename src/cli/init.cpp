@@ -10,16 +10,13 @@
 
 namespace trueaxis::cli {
 
-void add_init(CLI::App& app, int& exit_code) {
+void add_init(CLI::App* command, int& exit_code) {
   struct Options {
     std::string folder;
     bool force = false;
   };
-  CLI::App* command = app.add_subcommand(
-      "init",
-      "files to begin with: a scenario, its job, its cut, a sweep; commented, and they run");
   auto options = std::make_shared<Options>();
-  add_option(*command, "-o,--output", options->folder, a_place(), "folder, made if need be")
+  add_option(*command, "folder", options->folder, a_place(), "folder for the files, new or empty")
       ->required();
   add_force(*command, options->force);
   command->callback([options, &exit_code] {

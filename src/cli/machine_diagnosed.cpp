@@ -139,18 +139,21 @@ void say_advice(const MachineDiagnosis& found, const std::optional<ProgramHarm>&
 
 }  // namespace
 
-void MachineDiagnosed::add_to(CLI::App& command) {
-  command.add_option("--machine", machine.machine,
-                     "the machine (TOML) that was measured; no --surface then");
+CLI::Option* MachineDiagnosed::add_to(CLI::App& command) {
+  CLI::Option* const option =
+      command.add_option("--machine", machine.machine, "machine (TOML) that was measured")
+          ->type_name("FILE")
+          ->group(machine_group);
   machine.add_errors_to(command);
-  command.add_option("--program", program,
-                     "with --machine: a program, on which every effect and the uncertainty of the "
-                     "tip are weighed");
+  command
+      .add_option("--program", program,
+                  "program on which every cause and the uncertainty of the tip are weighed")
+      ->type_name("FILE")
+      ->group(machine_group);
+  return option;
 }
 
-int MachineDiagnosed::diagnose(Results& results) const {
-  results.say("--json", "trueaxis.machine_diagnosis");
-  results.say("--report", "trueaxis.machine_report");
+int MachineDiagnosed::diagnose(const Results& results) const {
   Outputs outputs(results.force);
   inputs_of(*this, outputs);
   results.name_to(outputs);
@@ -200,7 +203,7 @@ void expect_one_stream(const CLI::App& command, std::size_t streams) {
   if (streams > 1)
     throw CLI::ValidationError("stream", "one stream, or several measurements with --machine");
   expect_none(command, {"--errors", "--sign", "--large-errors", "--program", "--output"},
-              "is of a machine: name it with --machine");
+              "is for a machine: name it with --machine");
 }
 
 int advise_machine_job(const MachineJob& job, bool verbose) {

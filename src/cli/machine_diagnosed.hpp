@@ -10,7 +10,7 @@
 
 namespace trueaxis::cli {
 
-/// What `diagnose --machine` and `advise --machine` are told.
+/// What `machine diagnose` and `advise --machine` are told.
 struct MachineDiagnosed {
   MachineOptions machine;
   std::vector<std::string> data;  ///< measurements; none: a plan before any
@@ -19,10 +19,11 @@ struct MachineDiagnosed {
   double noise_um = -1.0;  ///< of a first plan's readings; below 0: as usual
   bool verbose = false, check = false;
 
-  void add_to(CLI::App& command);
+  /// @returns `--machine`
+  CLI::Option* add_to(CLI::App& command);
 
   /// Diagnoses the data and writes what is asked for. @returns the exit code
-  int diagnose(Results& results) const;
+  int diagnose(const Results& results) const;
   /// Prints the next measurement and what every other would show. @returns the exit code
   int advise(const Results& results) const;
 };

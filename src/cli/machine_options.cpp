@@ -10,24 +10,30 @@
 namespace trueaxis::cli {
 
 void MachineOptions::add_machine_to(CLI::App& command) {
-  command.add_option("machine", machine, "a machine (TOML, trueaxis.machine/1)")->required();
+  command.add_option("--machine", machine, "machine (TOML, trueaxis.machine/1)")
+      ->required()
+      ->type_name("FILE")
+      ->group(machine_group);
 }
 
 void MachineOptions::add_errors_to(CLI::App& command) {
-  command.add_option("--errors", errors,
-                     "errors of the machine: trueaxis.errors/1 (.toml), an ISG table (.csv), the "
-                     "Etalon exchange format (other names); several files add");
-  add_option(command, "--sign", sign, a_sign(),
-             "what component errors in ISG and Etalon files are of: the part that moves, or tool "
-             "minus workpiece");
-  command.add_flag("--large-errors", large_errors,
-                   "the errors are larger than machines have, and in the unit that is said");
+  command
+      .add_option("--errors", errors,
+                  "known errors (.toml, ISG .csv, or Etalon format); several files add")
+      ->type_name("FILE")
+      ->group(machine_group);
+  add_option(command, "--sign", sign, a_sign(), "sign in ISG and Etalon files")
+      ->group(machine_group);
+  command
+      .add_flag("--large-errors", large_errors,
+                "accept implausibly large errors (the units are correct)")
+      ->group(machine_group);
 }
 
 void MachineOptions::add_work_offset_to(CLI::App& command) {
   add_option(command, "--work-offset", work_offset,
-             one_of({"G54", "G55", "G56", "G57", "G58", "G59"}),
-             "the program frame: G54 … G59 (G54)");
+             one_of({"G54", "G55", "G56", "G57", "G58", "G59"}), "program frame (default G54)")
+      ->group(machine_group);
 }
 
 MachineFile MachineOptions::read_machine() const { return read_machine_toml(machine); }
@@ -47,7 +53,7 @@ Setting MachineOptions::setting_of(const Machine& of) const {
 }
 
 void TableOutput::add_to(CLI::App& command) {
-  add_option(command, "-o,--output", place, a_place(), "write here instead of printing");
+  add_place(command, "-o,--output", place, "table (CSV, default printed)");
   add_force(command, force);
 }
 

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iostream>
 
+#include "cli/catalogue.hpp"
 #include "cli/commands.hpp"
 #include "cli/described.hpp"
 #include "cli/guarded.hpp"
@@ -53,7 +55,10 @@ std::string command_entry(const DescribedCommand& command) {
       ".SS trueaxis " + troff(command.name) + "\n" + troff(command.description) + "\n";
   for (const DescribedOption& option : command.options)
     if (option.names.back() != "--help") text += option_entry(option);
-  return text;
+  const auto entry = std::ranges::find(catalogue(), command.name, &CommandEntry::name);
+  text += ".PP\nExamples:\n.PP\n.nf\n";
+  for (const char* const example : entry->examples) text += "    " + troff(example) + '\n';
+  return text + ".fi\n.PP\nMore: " + troff(entry->page) + '\n';
 }
 
 }  // namespace
@@ -77,10 +82,9 @@ std::string manual(const CLI::App& app) {
          "\n.SH ENVIRONMENT\n.TP\n\\fBNO_COLOR\\fR\nwhere it is set, the verdict has no colour\n";
 }
 
-void add_man(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("man", "prints the manual page: trueaxis man | man -l -");
-  command->callback([&app, &exit_code] {
-    std::cout << manual(app);
+void add_man(CLI::App* command, int& exit_code) {
+  command->callback([command, &exit_code] {
+    std::cout << manual(*command->get_parent());
     exit_code = done;
   });
 }

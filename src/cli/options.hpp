@@ -11,10 +11,14 @@
 /// What several commands check and are told alike.
 namespace trueaxis::cli {
 
+/// Groups of options in a command's help; the rest is in "Options".
+inline constexpr const char *readings_group = "Readings", *surface_group = "Surface",
+                            *points_group = "Points", *machine_group = "Machine",
+                            *results_group = "Results";
+
 /// `--array` of a command that reads points.
 inline constexpr const char* array_help =
-    "of an HDF5, MATLAB or NumPy file: the array of three columns that holds the points, or three "
-    "columns, as in X,Y,Z";
+    "array or three columns in an HDF5, MATLAB or NumPy file, as X,Y,Z";
 
 /// A finite number from `low` (itself not allowed when `open`) to `high`.
 inline CLI::Validator number_in(double low, bool open, double high, const std::string& meaning) {
@@ -31,7 +35,7 @@ inline CLI::Validator more_than_0() {
   return {[](const std::string& text) -> std::string {
             double value = 0.0;
             if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value))
-              return text + " is no finite number";
+              return text + " is not a finite number";
             return value > 0.0 ? "" : text + " must be more than 0";
           },
           "", "number"};
@@ -53,10 +57,24 @@ inline CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::IsMember(std::move(words));
 }
 
+/// `--coverage-factor` of a command that prints an uncertainty.
+inline CLI::Option* add_coverage_factor(CLI::App& command, double& factor) {
+  return add_option(command, "--coverage-factor", factor,
+                    number_in(0.0, true, 100.0, "a number above 0, up to 100"),
+                    "k of U = k u (default 2)");
+}
+
+/// `--threads` of a command that computes on several.
+inline CLI::Option* add_threads(CLI::App& command, int& threads) {
+  return add_option(command, "--threads", threads, CLI::Range(0, 4096),
+                    "number of threads (default 0: one per core)");
+}
+
 /// `--false-alarm` of a diagnosis.
 inline void add_false_alarm(CLI::App& command, double& level) {
   command
-      .add_option("--false-alarm", level, "chance of a finding in a stream that has none (0.01)")
+      .add_option("--false-alarm", level,
+                  "probability of a finding in data without a cause (default 0.01)")
       ->check(number_in(0.0, true, 0.5, "a probability above 0, up to 0.5"));
 }
 
@@ -71,11 +89,17 @@ inline CLI::Validator a_place() {
           "", "place"};
 }
 
+/// An option that names a file or folder; what is written is among the results.
+inline CLI::Option* add_place(CLI::App& command, const std::string& name, std::string& place,
+                              const std::string& help) {
+  CLI::Option* const option = add_option(command, name, place, a_place(), help)->type_name("FILE");
+  return name.ends_with("output") ? option->group(results_group) : option;
+}
+
 /// `--force`, the same for every command that writes.
 inline CLI::Option* add_force(CLI::App& command, bool& force) {
   return command.add_flag("--force", force,
-                          "replace files that are there and are not earlier results of this kind; "
-                          "never one that is read");
+                          "replace files that TrueAxis did not write; never an input");
 }
 
 /// What has no effect in one use of a command would be passed over in silence.

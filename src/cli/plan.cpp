@@ -125,46 +125,46 @@ void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {
         ->excludes(scenario)
         ->group("Without a scenario");
   };
-  add_option(command, "--surface", simple.surface, one_of({"cone", "cylinder"}), "cone or cylinder")
+  add_option(command, "--surface", simple.surface, one_of({"cone", "cylinder"}),
+             "surface of the part")
       ->capture_default_str()
       ->excludes(scenario)
       ->group("Without a scenario");
-  add("--radius-mm", simple.radius_mm, "radius where the pass starts");
-  add("--half-angle-deg", simple.half_angle_deg, "half angle of the cone");
-  add("--length-mm", simple.length_mm, "travel of the pass");
-  add("--feed-mm", simple.feed_mm, "feed per revolution");
+  add("--radius-mm", simple.radius_mm, "radius where the pass starts, mm");
+  add("--half-angle-deg", simple.half_angle_deg, "half angle of the cone, deg");
+  add("--length-mm", simple.length_mm, "length of the pass, mm");
+  add("--feed-mm", simple.feed_mm, "feed per revolution, mm");
   add("--per-revolution", simple.per_revolution, "readings per revolution");
-  add("--speed-rpm", simple.speed_rpm, "spindle speed");
-  add("--sigma-um", simple.sigma_um, "standard deviation of one reading");
+  add("--speed-rpm", simple.speed_rpm, "spindle speed, rpm");
+  add("--sigma-um", simple.sigma_um, "standard deviation of one reading, µm");
 }
 
 }  // namespace
 
-void add_plan(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "plan", "which length, readings and probe an uncertainty of the axis needs");
+void add_plan(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<PlanArguments>();
   auto* scenario = command->add_option("scenario", options->scenario, "part and plan (TOML)");
   add_option(*command, "--goal-um", options->goal_um, more_than_0(),
-             "largest U of the axis over the length")
+             "largest U of the axis over the length, µm")
       ->capture_default_str();
-  add_option(*command, "--k", options->task.coverage_factor, more_than_0(), "coverage factor of U")
+  add_option(*command, "--coverage-factor", options->task.coverage_factor, more_than_0(),
+             "k of U = k u")
       ->capture_default_str();
-  command->add_option("--free", options->free,
-                      "what may be chosen, KEY=LOW:HIGH, each once: readings_per_revolution, "
-                      "sigma_um, feed_mm_per_rev, length_mm");
+  command
+      ->add_option("--free", options->free,
+                   "range of readings_per_revolution, sigma_um, feed_mm_per_rev or length_mm")
+      ->type_name("KEY=LOW:HIGH");
   add_option(*command, "--time-s", options->task.time_s, more_than_0(),
-             "time that the measurement may take");
+             "longest time of the measurement, s");
   add_option(*command, "--rate-hz", options->task.rate_hz, more_than_0(),
-             "readings a second that the probe gives");
+             "readings per second of the probe, Hz");
   add_option(*command, "--repeats", options->task.repeats, CLI::Range(100, 10'000'000),
-             "of each confirmation")
+             "simulations for each confirmation")
       ->capture_default_str();
-  command->add_option("--seed", options->task.seed, "of the confirmations")->capture_default_str();
-  add_option(*command, "--threads", options->task.threads, CLI::Range(0, 4096),
-             "default: as many as there are");
-  options->results.add(*command, "--json", "trueaxis.plan",
-                       "the answer (trueaxis.plan/1), '-' prints it");
+  command->add_option("--seed", options->task.seed, "seed of the simulations")
+      ->capture_default_str();
+  add_threads(*command, options->task.threads);
+  options->results.add(*command, "--json", "trueaxis.plan", "result (JSON); - prints it");
   add_force(*command, options->results.force);
   add_check(*command, options->check);
   add_simple(*command, options->simple, scenario);

@@ -42,9 +42,7 @@ int execute(const PoseArguments& options) {
 
 }  // namespace
 
-void add_pose(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("pose", "where the tool of a machine with errors is in the part");
+void add_pose(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<PoseArguments>();
   options->machine.add_machine_to(*command);
   command->add_option("positions", options->positions, "axis positions (CSV): X[mm],A[deg]…")

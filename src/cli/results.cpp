@@ -12,7 +12,8 @@ namespace trueaxis::cli {
 CLI::Option* Results::add(CLI::App& command, const std::string& option, const std::string& schema,
                           const std::string& help) {
   Result& one = all_.emplace_back(Result{option.substr(option.rfind(',') + 1), schema, ""});
-  return add_option(command, option, one.place, a_place(), help)
+  return add_place(command, option, one.place, help)
+      ->group(results_group)
       ->check([this](const std::string& place) {
         const auto other = std::ranges::find(all_, place, &Result::place);
         return other == all_.end() ? std::string() : "cannot go where " + other->option + " goes";
@@ -41,10 +42,10 @@ void Results::name_to(Outputs& outputs) const {
 
 void add_stream_results(CLI::App& command, Results& results, const std::string& schema,
                         const std::string& residuals_hold) {
-  results.add(command, "--json", schema, "write the result here, '-' prints it");
+  results.add(command, "--json", schema, "result (JSON); - prints it");
   results.add(command, "--residuals", "trueaxis.residuals",
-              "write every reading with " + residuals_hold);
-  results.add(command, "--report", "trueaxis.report", "write a page here (HTML), '-' prints it");
+              "every reading with " + residuals_hold + " (CSV)");
+  results.add(command, "--report", "trueaxis.report", "report page (HTML)");
   add_force(command, results.force);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -30,6 +31,11 @@ int exit_code_of_job(const JobResult& result) {
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
   return !fitted ? numerical : result.verdict.go() && forms_met(result) ? done : refused;
+}
+
+/// "shaft_result" of data/shaft.toml, where the command is run.
+std::string default_folder(const std::string& path) {
+  return path == "-" ? "result" : std::filesystem::path(path).stem().string() + "_result";
 }
 
 struct RunArguments {
@@ -109,26 +115,21 @@ int execute(const RunArguments& options) {
 
 }  // namespace
 
-void add_run(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "run",
-      "the whole job: of a lathe fit, diagnosis, correction, report; of a machine "
-      "of several axes diagnosis, errors, program, report");
+void add_run(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<RunArguments>();
-  options->stream.add_to(*command, "job file (TOML), or a stream or another program's recording");
+  options->stream.add_to(*command, "job (TOML), probe stream or another program's recording");
   options->stream.add_range_to(*command);
   options->surface = options->association.add_to(*command);
-  add_option(*command, "-o,--output", options->folder, a_place(),
-             "folder for table.csv or the new program, result.json and report.html, made if "
-             "need be")
-      ->required();
+  add_place(*command, "-o,--output", options->folder,
+            "folder for the results (default INPUT_result, as shaft_result)");
   add_force(*command, options->force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
   command->callback([=, &exit_code] {
+    if (options->folder.empty()) options->folder = default_folder(options->stream.path);
     if (is_job(options->stream.path))
       expect_only(*command, {"stream", "--output", "--force", "--verbose", "--check"},
-                  "is of a stream alone: write it into the job");
+                  "is for a stream alone: write it into the job");
     exit_code = execute(*options);
   });
 }

@@ -54,7 +54,7 @@ std::string with_units_bound(std::string text) {
 }  // namespace
 
 CLI::Option* add_verbose(CLI::App& command, bool& verbose) {
-  return command.add_flag("-v,--verbose", verbose, "print everything, not what fits a screen");
+  return command.add_flag("-v,--verbose", verbose, "print all details");
 }
 
 void print_screen(const std::string& text) {

@@ -54,30 +54,23 @@ void simulate_cut(const lathe::Scenario& scenario, const SimulateOptions& option
   outputs.commit();
 }
 
-/// A scenario with `[machine]`.
-int simulate_machine(SimulateOptions& options, MachineScenarioKind kind) {
-  const bool cuts = kind == MachineScenarioKind::cut;
+/// A scenario of a machine of several axes has a command of its own; here until the next release.
+int forwarded(SimulateOptions& options) {
+  std::cerr << "trueaxis: a scenario with [machine] is now for trueaxis machine simulate; "
+               "simulate plays it until the next release\n";
   if (options.results.asked("--truth") || !options.table.empty())
     throw InputError(options.scenario,
                      "a machine has its errors file for a truth, and no table: leave --truth and "
                      "--table out");
-  if (cuts && options.seed)
-    throw InputError(options.scenario, "a cut has no noise: leave --seed out");
-  if (!cuts && !options.program.empty())
-    throw InputError(options.scenario, "--program needs a scenario with [machine] and [cut]");
-  return cuts ? simulate_machine_cut(options) : simulate_measurement(options);
+  return simulate_machine(options);
 }
 
 int execute(SimulateOptions& options) {
   const Results& results = options.results;
-  const MachineScenarioKind kind = machine_scenario_kind(options.scenario);
-  const bool cuts = kind == MachineScenarioKind::cut;
-  if (!results.asked("--output") && !cuts) throw CLI::RequiredError("--output");
-  if (results.asked("--json") && !cuts)
-    throw CLI::ValidationError("--json", "needs --from, or a scenario with [machine] and [cut]");
-  if (kind != MachineScenarioKind::none) return simulate_machine(options, kind);
-  if (!options.program.empty())
-    throw InputError(options.scenario, "--program needs a scenario with [machine] and [cut]");
+  if (machine_scenario_kind(options.scenario) != MachineScenarioKind::none)
+    return forwarded(options);
+  if (!results.asked("--output")) throw CLI::RequiredError("--output");
+  if (results.asked("--json")) throw CLI::ValidationError("--json", "needs --from");
   lathe::Scenario scenario = read_scenario_toml(options.scenario);
   if (options.seed) scenario.seed = *options.seed;
   if (scenario.cut) {
@@ -105,51 +98,45 @@ int execute(SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "simulate",
-      "probe a part in the virtual lathe; measure, or cut a program, on a virtual machine");
+void add_simulate(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<SimulateOptions>();
   Results& results = options->results;
   auto* scenario = command->add_option("scenario", options->scenario, "scenario (TOML)");
-  auto* diagnosis =
-      command->add_option("--from", options->diagnosis,
-                          "diagnosis (JSON) instead of a scenario: measure its part again, with "
-                          "what was found, and compare");
+  auto* diagnosis = command
+                        ->add_option("--from", options->diagnosis,
+                                     "diagnosis (JSON) whose part is measured again and compared")
+                        ->type_name("FILE");
   diagnosis->excludes(scenario);
-  auto* output =
-      results.add(*command, "-o,--output", "trueaxis.stream", "the stream (CSV), '-' prints it");
-  results.add(*command, "--truth", "trueaxis.truth", "what the virtual lathe knows (JSON)")
-      ->needs(output);
-  command->add_option("--table", options->table, "correction table of the scenario's [cut]")
+  command->add_option("--table", options->table, "correction table for the scenario's [cut]")
+      ->type_name("FILE")
       ->excludes(diagnosis);
-  command
-      ->add_option("--program", options->program,
-                   "a program that the machine cuts instead of that of the scenario's [cut], which "
-                   "says what should be cut")
-      ->excludes(diagnosis);
-  command->add_option("--seed", options->seed, "instead of the scenario's");
-  command->add_option("--stream", options->stream.path, "where the diagnosed stream is now")
+  command->add_option("--seed", options->seed, "seed of the noise (default the scenario's)");
+  command->add_option("--stream", options->stream.path, "diagnosed stream, if it has moved")
+      ->type_name("FILE")
       ->needs(diagnosis);
-  command->add_flag("--before", options->before, "the ideal surface, without what was found")
+  command->add_flag("--before", options->before, "the ideal fit without the causes found")
       ->needs(diagnosis);
-  command->add_flag("--noise-free", options->noise_free, "without noise")->needs(diagnosis);
-  command->add_flag("--compare", options->compare, "print the comparison, write no stream")
-      ->needs(diagnosis)
-      ->excludes(output);
-  results.add(*command, "--json", "trueaxis.comparison",
-              "write the comparison, or the judgement of a cut, here (JSON), '-' prints it");
-  add_force(*command, results.force);
-  add_check(*command, options->check);
+  command->add_flag("--noise-free", options->noise_free, "no noise")->needs(diagnosis);
+  auto* compare =
+      command->add_flag("--compare", options->compare, "print the comparison, write no stream")
+          ->needs(diagnosis);
   options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
   StreamOptions::add_ball_radius(*command, options->ball_radius_mm)->needs(diagnosis);
+  auto* output =
+      results.add(*command, "-o,--output", "trueaxis.stream", "stream (CSV); - prints it");
+  compare->excludes(output);
+  results.add(*command, "--truth", "trueaxis.truth", "true values of the virtual lathe (JSON)")
+      ->needs(output);
+  results.add(*command, "--json", "trueaxis.comparison", "comparison (JSON); - prints it");
+  add_force(*command, results.force);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] {
     const Results& results = options->results;
     if (options->diagnosis.empty()) {
       if (options->scenario.empty()) throw CLI::RequiredError("scenario");
       if (options->stream.says_anything())
-        throw CLI::ValidationError("--diameter, --radius, --relative, --nominal-radius",
+        throw CLI::ValidationError("--diameter, --radius, --relative, --nominal-radius-mm",
                                    "need --from");
       exit_code = execute(*options);
       return;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
+#include <memory>
 
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/simulate_options.hpp"
@@ -8,8 +10,11 @@
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "simulate/machine/files/machine_scenario_files.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
+
+namespace {
 
 int simulate_measurement(SimulateOptions& options) {
   Results& results = options.results;
@@ -34,7 +39,7 @@ int simulate_measurement(SimulateOptions& options) {
   return done;
 }
 
-int simulate_machine_cut(SimulateOptions& options) {
+int simulate_cut(SimulateOptions& options) {
   Results& results = options.results;
   results.say("--output", "trueaxis.path");
   results.say("--json", "trueaxis.cut");
@@ -55,6 +60,40 @@ int simulate_machine_cut(SimulateOptions& options) {
   outputs.commit();
   if (!results.printed()) std::cout << cut_text(cut, scenario);
   return done;
+}
+
+}  // namespace
+
+int simulate_machine(SimulateOptions& options) {
+  const std::string& path = options.scenario;
+  const MachineScenarioKind kind = machine_scenario_kind(path);
+  const bool cuts = kind == MachineScenarioKind::cut;
+  if (kind == MachineScenarioKind::none)
+    throw InputError(path, "has no [machine]: a lathe is for trueaxis simulate");
+  if (cuts && options.seed) throw InputError(path, "a cut has no noise: leave --seed out");
+  if (!cuts && !options.results.asked("--output")) throw CLI::RequiredError("--output");
+  if (!cuts && options.results.asked("--json"))
+    throw CLI::ValidationError("--json", "needs a scenario with [machine] and [cut]");
+  if (!cuts && !options.program.empty())
+    throw InputError(path, "--program needs a scenario with [machine] and [cut]");
+  return cuts ? simulate_cut(options) : simulate_measurement(options);
+}
+
+void add_machine_simulate(CLI::App* command, int& exit_code) {
+  auto options = std::make_shared<SimulateOptions>();
+  Results& results = options->results;
+  command->add_option("scenario", options->scenario, "scenario with [machine] (TOML)")->required();
+  command
+      ->add_option("--program", options->program,
+                   "program to cut instead of the one in [cut], which stays the nominal part")
+      ->type_name("FILE");
+  command->add_option("--seed", options->seed, "seed of the noise (default the scenario's)");
+  results.add(*command, "-o,--output", "trueaxis.measurement",
+              "measurement, or path of the tip in a cut (CSV); - prints it");
+  results.add(*command, "--json", "trueaxis.cut", "judgement of a cut (JSON); - prints it");
+  add_force(*command, results.force);
+  add_check(*command, options->check);
+  command->callback([options, &exit_code] { exit_code = simulate_machine(*options); });
 }
 
 }  // namespace trueaxis::cli

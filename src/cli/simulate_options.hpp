@@ -23,10 +23,8 @@ struct SimulateOptions {
 /// `simulate --from DIAGNOSIS`.
 int simulate_from(SimulateOptions& options);
 
-/// What a machine of several axes would read of balls on its table.
-int simulate_measurement(SimulateOptions& options);
-
-/// What it cuts of a program, and how far that is from what should be cut.
-int simulate_machine_cut(SimulateOptions& options);
+/// A scenario with `[machine]`: what a machine of several axes would read of balls on its table, or
+/// what it cuts of a program and how far that is from what should be cut.
+int simulate_machine(SimulateOptions& options);
 
 }  // namespace trueaxis::cli

@@ -14,6 +14,7 @@
 #include "cli/options.hpp"
 #include "cli/results.hpp"
 #include "cli/stream_options.hpp"
+#include "cli/terminal.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
 #include "spindle/files/spindle_files.hpp"
@@ -125,9 +126,10 @@ int separate(const SpindleArguments& options, const OrderRange& orders) {
 int execute(const SpindleArguments& options) {
   const auto orders = parse_orders(options.orders);
   if (!orders)
-    throw CLI::ValidationError("--orders", options.orders + " is no range of orders such as 2-100");
+    throw CLI::ValidationError("--orders",
+                               options.orders + " is not a range of orders such as 2-100");
   const std::string trouble = csv_sensor_angles_trouble(options.angles_deg);
-  if (!trouble.empty()) throw CLI::ValidationError("--angles", trouble);
+  if (!trouble.empty()) throw CLI::ValidationError("--angles-deg", trouble);
   if (options.advise) return propose(options, *orders);
   if (options.streams.empty()) throw CLI::RequiredError("stream");
   if (orders->low != 2) throw CLI::ValidationError("--orders", "a separation begins with order 2");
@@ -137,22 +139,20 @@ int execute(const SpindleArguments& options) {
 void add_estimate(CLI::App& command, SpindleArguments& options) {
   add_option(command, "--sensitive-deg", options.sensitive_deg,
              number_in(-360.0, false, 360.0, "an angle of -360 to 360 deg"),
-             "direction of the tool from +X towards +Y (0)");
+             "direction of the tool from +X towards +Y, deg (default 0)");
   add_option(command, "--u-angle-deg", options.u_angle_deg,
              number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"),
-             "standard uncertainty of a sensor's angle");
+             "standard uncertainty of a sensor's angle, deg (default 0)");
   add_option(command, "--u-reindex-deg", options.u_reindex_deg,
              number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"),
-             "of the angle of a re-indexing");
-  add_option(command, "--coverage-factor", options.coverage_factor,
-             number_in(0.0, true, 100.0, "a number above 0, up to 100"), "k of U = k u (2)");
+             "standard uncertainty of a re-indexing angle, deg (default 0)");
+  add_coverage_factor(command, options.coverage_factor);
   Results& results = options.results;
-  results.add(command, "--json", "trueaxis.spindle", "write the result here (JSON), '-' prints it");
-  results.add(command, "--svg", "trueaxis.spindle_plot",
-              "write polar plots here (SVG), '-' prints them");
+  results.add(command, "--json", "trueaxis.spindle", "result (JSON); - prints it");
+  results.add(command, "--svg", "trueaxis.spindle_plot", "polar plots (SVG)");
   results.add(command, "--report", "trueaxis.spindle_report",
-              "write a page here (HTML): values, polar plots, orders; '-' prints it");
-  command.add_flag("--verbose", options.verbose, "a table of the orders too");
+              "report page with values, polar plots, orders (HTML)");
+  add_verbose(command, options.verbose);
   add_force(command, results.force);
   add_check(command, options.check);
   options.meaning.add_meaning_to(command);
@@ -160,28 +160,28 @@ void add_estimate(CLI::App& command, SpindleArguments& options) {
 
 }  // namespace
 
-void add_spindle(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "spindle", "form of the part and error motion of the spindle, separated (ISO 230-7)");
+void add_spindle(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<SpindleArguments>();
   command->add_option("stream", options->streams,
-                      "probe streams (CSV) of one section: several sensors, set-ups, reversal, an "
-                      "axial sensor; or one job (.toml)");
+                      "probe streams (CSV) of one section, or one job (.toml)");
   command
-      ->add_option("--angles", options->angles_deg,
-                   "of the sensors X_M1, X_M2 …, deg from +X towards +Y: 0,99,202")
+      ->add_option("--angles-deg", options->angles_deg,
+                   "angles of the sensors X_M1, X_M2 … from +X towards +Y, deg, as 0,99,202")
       ->delimiter(',');
-  command->add_option("--orders", options->orders, "undulations per revolution (2-100)");
+  command->add_option("--orders", options->orders,
+                      "orders, undulations per revolution (default 2-100)");
   add_option(*command, "--largest-condition", options->largest_condition,
              number_in(1.0, false, 1e6, "a number of 1 to 1e6"),
-             "an order with a larger condition number is suppressed (100)");
+             "condition number above which an order is suppressed (default 100)");
   add_estimate(*command, *options);
   auto* advise = command->add_flag("--advise", options->advise,
-                                   "propose angles of sensors, and judge those of --angles");
-  add_option(*command, "--sensors", options->sensors, CLI::Range(2, 16), "how many (3)")
+                                   "propose angles of sensors, and judge those of --angles-deg");
+  add_option(*command, "--sensors", options->sensors, CLI::Range(2, 16),
+             "number of sensors for --advise (default 3)")
       ->needs(advise);
   add_option(*command, "--min-separation-deg", options->apart_deg,
-             number_in(0.0, false, 120.0, "an angle of 0 to 120 deg"), "between two sensors (20)")
+             number_in(0.0, false, 120.0, "an angle of 0 to 120 deg"),
+             "least angle between two sensors, deg (default 20)")
       ->needs(advise);
   command->callback([options, command, &exit_code] {
     expect_job_alone(*command, *options);

@@ -27,7 +27,7 @@ struct StreamOptions {
   const CLI::App* command = nullptr;  ///< whose options these are
 
   void add_to(CLI::App& command,
-              const std::string& what = "probe stream (CSV), '-' for standard input") {
+              const std::string& what = "probe stream (CSV); - for standard input") {
     command.add_option("stream", path, what)->required();
     add_meaning_to(command);
   }
@@ -35,34 +35,44 @@ struct StreamOptions {
   /// The options that say what the readings are.
   void add_meaning_to(CLI::App& command) {
     this->command = &command;
-    auto* as_diameter = command.add_flag("--diameter", diameter, "X_M is a diameter");
-    command.add_flag("--radius", radius, "X_M is a radius")->excludes(as_diameter);
-    command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");
-    add_option(command, "--nominal-radius", nominal_radius_mm, positive_length(),
-               "of a relative gauge, mm");
-    add_option(command, "--columns", columns, a_place(),
-               "of another program's file: which is which, by name or number, such as "
-               "\"X=Diameter,C=Angle(°),Z=3[mm]\"");
+    auto* as_diameter = command.add_flag("--diameter", diameter, "X_M is a diameter, a radius")
+                            ->group(readings_group);
+    command.add_flag("--radius", radius, "X_M is a diameter, a radius")
+        ->excludes(as_diameter)
+        ->group(readings_group);
+    command.add_flag("--relative", relative, "X_M is a gauge's reading; its nominal radius, mm")
+        ->group(readings_group);
+    add_option(command, "--nominal-radius-mm", nominal_radius_mm, positive_length(),
+               "X_M is a gauge's reading; its nominal radius, mm")
+        ->group(readings_group);
+    add_place(command, "--columns", columns,
+              "columns in another program's file, as \"X=Diameter,C=Angle(°),Z=3[mm]\"")
+        ->type_name("COLUMNS")
+        ->group(readings_group);
     add_option(command, "--skip", skip, CLI::Range(0, 1000000),
-               "of another program's file: lines above its table that are passed over");
-    command.add_flag(
-        "--drop-invalid", drop_invalid,
-        "exclude rows without a value (NaN, #N/A, empty) and readings at the end of the sensor's "
-        "range, and list them");
+               "lines above the table in another program's file")
+        ->group(readings_group);
+    command
+        .add_flag("--drop-invalid", drop_invalid,
+                  "exclude and list rows without a value, readings of a saturated sensor")
+        ->group(readings_group);
   }
 
   /// The options that take a stretch of Z alone.
   void add_range_to(CLI::App& command) {
     add_option(command, "--z-from-mm", range.from_mm, number_in(-1e6, true, 1e6, "a length in mm"),
-               "lower end of the Z that is read, mm (all)");
+               "range of Z to use, mm (default all)")
+        ->group(readings_group);
     add_option(command, "--z-to-mm", range.to_mm, number_in(-1e6, true, 1e6, "a length in mm"),
-               "upper end of the Z that is read, mm (all)");
+               "range of Z to use, mm (default all)")
+        ->group(readings_group);
   }
 
-  /// `--ball-radius` of a command that reads a diagnosed stream again.
+  /// `--ball-radius-mm` of a command that reads a diagnosed stream again.
   static CLI::Option* add_ball_radius(CLI::App& command, double& radius_mm) {
-    return add_option(command, "--ball-radius", radius_mm, a_length(),
-                      "of the probe's ball, mm, as given to the diagnosis");
+    return add_option(command, "--ball-radius-mm", radius_mm, a_length(),
+                      "ball radius as given to the diagnosis, mm (default 0)")
+        ->group(readings_group);
   }
 
   bool says_anything() const {
@@ -78,7 +88,7 @@ struct StreamOptions {
     if (nominal_radius_mm > 0.0) options.nominal_radius_mm = nominal_radius_mm;
     options.drop_invalid = drop_invalid;
     options.typed = typed_command(*command, {"--diameter", "--radius", "--relative",
-                                             "--nominal-radius", "--columns", "--skip"});
+                                             "--nominal-radius-mm", "--columns", "--skip"});
     return options;
   }
 
@@ -103,25 +113,25 @@ struct AssociationOptions {
     for (const SurfaceInfo& info : surface_catalogue())
       if (fit_only || is_diagnosed(info.kind)) surfaces.emplace_back(info.id);
     CLI::Option* option =
-        add_option(command, "--surface", surface, one_of(surfaces), "reference surface");
+        add_option(command, "--surface", surface, one_of(surfaces), "reference surface")
+            ->group(surface_group);
     add_option(command, "--loss", loss, one_of({"plain", "huber", "tukey"}),
-               "how readings far off count: plain (least squares, default); huber and tukey "
-               "count them less");
-    command.add_flag("--bore", fit.bore, "probed from inside");
-    add_option(command, "--ball-radius", fit.ball_radius_mm, a_length(),
-               "X_M is the centre of a ball of this radius, mm");
-    add_option(command, "--noise", noise_um, a_length(),
-               "standard deviation of one reading if known, µm");
+               "weight of outlying readings (default plain)")
+        ->group(surface_group);
+    command.add_flag("--bore", fit.bore, "the part is probed from inside")->group(surface_group);
+    add_option(command, "--ball-radius-mm", fit.ball_radius_mm, a_length(),
+               "ball radius if X_M is the ball's centre, mm (default 0)")
+        ->group(surface_group);
+    add_option(command, "--noise-um", noise_um, a_length(),
+               "standard deviation of one reading, µm (default from the data)")
+        ->group(surface_group);
     if (!fit_only)
-      command
-          .add_option("--known", known,
-                      "what is known of probe and machine, with its standard uncertainty, such as "
-                      "lag_ms=0.4±0.1 or u_gain=0; keys are those of [sensor] of a job")
+      command.add_option("--known", known, "known value, as lag_ms=0.4±0.1; keys of [sensor]")
+          ->group(surface_group)
           ->type_name("KEY=VALUE±U")
           ->expected(1, 100)
           ->allow_extra_args(false);
-    add_option(command, "--coverage-factor", fit.coverage_factor,
-               number_in(0.0, true, 100.0, "a number above 0, up to 100"), "k of U = k u (2)");
+    add_coverage_factor(command, fit.coverage_factor)->group(surface_group);
     return option;
   }
 

@@ -10,23 +10,19 @@
 
 namespace trueaxis::cli {
 
-void add_sweep(CLI::App& app, int& exit_code) {
+void add_sweep(CLI::App* command, int& exit_code) {
   struct Options {
     std::string sweep, folder;
     int threads = 0;
     bool force = false, check = false;
   };
-  CLI::App* command =
-      app.add_subcommand("sweep", "repeat a scenario over a grid, against the theoretical limit");
   auto options = std::make_shared<Options>();
   command->add_option("sweep", options->sweep, "sweep (TOML)")->required();
-  add_option(*command, "-o,--output", options->folder, a_place(),
-             "folder of the results, the report and the journal, made if need be; without it "
-             "nothing is kept");
+  add_place(*command, "-o,--output", options->folder,
+            "folder for results, report and journal (default none: nothing is kept)");
   add_force(*command, options->force);
   add_check(*command, options->check);
-  add_option(*command, "--threads", options->threads, CLI::Range(0, 4096),
-             "default: as many as there are");
+  add_threads(*command, options->threads);
   command->callback([options, &exit_code] {
     const study::PublishedSweep file = read_published_sweep(options->sweep);
     if (options->check) {

@@ -3,15 +3,20 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
+
+#include "cli/catalogue.hpp"
 
 namespace trueaxis::cli {
 
 /// The words of a command as they were typed, in that order, without the options `but`.
 inline std::vector<std::string> typed_command(const CLI::App& command,
                                               const std::vector<std::string>& but = {}) {
-  std::vector<std::string> words{"trueaxis", command.get_name()};
+  std::vector<std::string> words{"trueaxis"};
+  std::istringstream name(full_name(command));
+  for (std::string word; name >> word;) words.push_back(word);
   std::vector<const CLI::Option*> seen;
   for (const CLI::Option* option : command.parse_order()) {
     const std::string name = option->get_name();

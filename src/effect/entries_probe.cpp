@@ -50,7 +50,7 @@ std::vector<Effect> probe_geometry() {
        .formula = "r0 -> r0 + r_b/cos alpha, exactly (a bore: minus)",
        .parameters = {{"radius", "mm", 1e-3, 3, "r_b", "", 0.0, 0.0}},
        .signature = "none but a larger radius",
-       .consequence = "state the ball's radius (--ball-radius)",
+       .consequence = "state the ball's radius (--ball-radius-mm)",
        .absorbed_by = "radius",
        .separations = {{"MS", "a master of known radius shows it"}},
        .axis_bias = AxisBias{0.0, "mm/mm", "nothing"},

@@ -70,7 +70,7 @@ std::vector<double> sections_along(const std::vector<Eigen::Vector3d>& points) {
       throw InputError("points",
                        fmt::format("the points of the cylinder stand in no sections (some from "
                                    "{:.4g} to {:.4g} mm along the axis without a break): `trueaxis "
-                                   "associate` gives the zone of such points, without a filter",
+                                   "fit --points` gives the zone of such points, without a filter",
                                    low, high));
     for (std::size_t k = begin; k < end; ++k) out[order[k]] = 0.5 * (low + high);
     begin = end;
@@ -144,7 +144,7 @@ FormResult space_line(const std::vector<Eigen::Vector3d>& points, const FormOpti
   Estimate value{assess(across).front().value, spread[0].u, "mm", ""};
   if (!options.noise_mm) {
     value.u = std::nan("");
-    value.why_not = "the noise of a point is not stated (--noise)";
+    value.why_not = "the noise of a point is not stated (--noise-um)";
   }
   result.groups.push_back({"straightness", {{"STRt", "MZLI", value, spread[0].bias}}});
   return result;
@@ -161,7 +161,7 @@ FormResult assess_form(std::span<const Point3> points_mm, Element element,
       element != Element::cylinder)
     throw InputError("points",
                      fmt::format("a {} has no form parameters of ISO 1101 of its own: `trueaxis "
-                                 "associate` gives its zone",
+                                 "fit --points` gives its zone",
                                  element_names[static_cast<std::size_t>(element)]));
   const AssociatedFeature found = nominal(points_mm, element);
   const std::vector<Eigen::Vector3d> points = in_frame(points_mm, found);

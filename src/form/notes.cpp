@@ -19,7 +19,7 @@ void note_radius(const ProbeStream& stream, const Sections& sections, FormResult
     result.notes.push_back(fmt::format(
         "The radius of the section is not known (a relative gauge without nominal_radius): the "
         "reference circles are limaçons. An eccentric circle of radius R reads as {:.3g} µm / (R "
-        "in mm) of two lobes more: centre the part or give --nominal-radius",
+        "in mm) of two lobes more: centre the part or give --nominal-radius-mm",
         0.25 * e * e / mm_per_um));
     if (result.sections.size() > 1)
       result.notes.emplace_back("Cylindricity and run-out of several sections need the radius");
@@ -57,7 +57,7 @@ void note_ball(FormResult& result) {
   const FormOptions& options = result.options;
   if (!(options.ball_radius_mm > 0.0)) {
     result.notes.emplace_back(
-        "The ball's radius is not known (--ball-radius): what it bridges is in no U");
+        "The ball's radius is not known (--ball-radius-mm): what it bridges is in no U");
     return;
   }
   const SectionForm& section = result.sections.front();

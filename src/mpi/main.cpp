@@ -73,7 +73,7 @@ int run(int argc, char** argv, int rank) {
   app.set_version_flag("--version", "trueaxis-mpi " TRUEAXIS_VERSION);
   app.require_subcommand(1);
   Options options;
-  CLI::App* command = app.add_subcommand("sweep", "as trueaxis sweep, the same bytes");
+  CLI::App* command = app.add_subcommand("sweep", "as trueaxis study sweep, the same bytes");
   command->add_option("sweep", options.sweep, "sweep (TOML)")->required();
   command->add_option("-o,--output", options.folder, "folder of the results and the journal")
       ->required()

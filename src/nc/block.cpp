@@ -59,9 +59,10 @@ class Sorter {
     const std::string name = code_text(word, tenths);
     const bool arc = tenths == 20 || tenths == 30;
     if (arc && !rules_.arcs)
-      return complain(word, name +
-                                " is an arc: say how far chords may be from it (--arcs; in a job "
-                                "[program] arc_tolerance_um)");
+      return complain(word,
+                      name +
+                          " is an arc: say how far chords may be from it (--arcs-mm; in a job "
+                          "[program] arc_tolerance_um)");
     if (group == Group::none) {
       const std::string_view why = why_not_g(tenths);
       return complain(word, name + ' ' +

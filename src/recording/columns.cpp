@@ -127,7 +127,7 @@ std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::s
     }
     if (named->gauge) {
       unclear.push_back(described(recording, k) + " is of an indicator: say X=" +
-                        std::to_string(k + 1) + ", --relative and --nominal-radius");
+                        std::to_string(k + 1) + ", --relative and --nominal-radius-mm");
       continue;
     }
     const auto other = std::ranges::find(taken, named->role, &TakenColumn::role);
@@ -231,7 +231,7 @@ std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsS
     unclear.emplace_back("no column is called C or Angle: say which holds the spindle angle");
   if (!has(RecordedRole::c) && said.items.empty() && are_points(recording))
     unclear.emplace_back(
-        "points x y z without a spindle angle are read by trueaxis associate FILE --element "
+        "points x y z without a spindle angle are read by trueaxis fit --points FILE --element "
         "cylinder, and by trueaxis form FILE --element cylinder");
   return taken;
 }

@@ -169,7 +169,7 @@ Json part_form_data(const PartForm& form) {
   data["notes"] = Json::array();
   for (std::string note : form.probed.notes) {
     if (is_tapered(form.probed) && of_cylinders(note)) continue;
-    constexpr std::string_view option = " (--ball-radius)";
+    constexpr std::string_view option = " (--ball-radius-mm)";
     if (const std::size_t at = note.find(option); at != std::string::npos)
       note.erase(at, option.size());
     data["notes"].push_back(note);

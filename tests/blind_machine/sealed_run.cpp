@@ -56,7 +56,7 @@ Answer run_command(const Case& one, const Plan& plan, std::uint64_t noise_seed,
                       Json{{"truth", one.truth}, {"lambda", one.lambda}}.dump(1) + '\n');
   const std::string at = folder.string();
   return testing::timed_answer<Answer>(
-      '"' + command + "\" diagnose \"" + at + "/data.csv\" --machine \"" + at +
+      '"' + command + "\" machine diagnose \"" + at + "/data.csv\" --machine \"" + at +
           "/machine.toml\" --json \"" + at + "/diagnosis.json\" --force",
       folder / "diagnosis.json", answer_from);
 }

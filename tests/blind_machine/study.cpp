@@ -75,9 +75,11 @@ void look_elsewhere(Result& result, const StudyOptions& options,
         result.made, read_errors_toml((folder / file).string(), result.made.layout->machine));
   };
   result.calibrated_mm =
-      off("calibrate " + at + "/machine.toml\" " + at + "/data.csv\"", "calibrated.toml");
+      off("machine calibrate --machine " + at + "/machine.toml\" " + at + "/data.csv\"",
+          "calibrated.toml");
   result.diagnosed_mm =
-      off("diagnose " + at + "/data.csv\" --machine " + at + "/machine.toml\"", "diagnosed.toml");
+      off("machine diagnose " + at + "/data.csv\" --machine " + at + "/machine.toml\"",
+          "diagnosed.toml");
 }
 
 }  // namespace

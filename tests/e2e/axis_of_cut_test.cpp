@@ -74,7 +74,7 @@ TEST_F(AxisOfCut, CorrectTakesTheSameKey) {
   std::filesystem::rename(folder_ / "out/table.csv", folder_ / "stated.csv");
   run_with("axis = \"ideal\"\n");
   const CommandStreams done =
-      command("correct out/diagnosis_1_cylinder.json --target job.toml -o table.csv");
+      command("table out/diagnosis_1_cylinder.json --target job.toml -o table.csv");
   EXPECT_EQ(done.exit_code, 0) << done.out << done.err;
   EXPECT_TRUE(contains(done.out, "about the ideal axis")) << done.out;
   const auto rows = [&](const char* name) {

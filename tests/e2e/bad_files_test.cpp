@@ -142,7 +142,7 @@ TEST_F(BadFit, IsToldFromAFit) {
   const nlohmann::json good = result("fit.json");
   const auto expect_refused = [&](const std::string& text, const std::string& why) {
     file("bad.json", text);
-    expect_input_error("correct bad.json --target job.toml -o table.csv", why);
+    expect_input_error("table bad.json --target job.toml -o table.csv", why);
   };
   expect_refused("", "bad.json: cannot be read as trueaxis.fit/1");
   expect_refused("[1, 2", "bad.json: cannot be read as trueaxis.fit/1");
@@ -157,9 +157,8 @@ TEST_F(BadFit, IsToldFromAFit) {
   fit["axis"]["covariance"]["matrix"][1][1] = -1e-6;
   expect_refused(fit.dump(), "negative variance");
   file("target.toml", "[target]\nsurface = \"cylinder\"\n");
-  expect_input_error("correct fit.json --ideal --target target.toml -o table.csv",
-                     "target.toml:1:1");
-  expect_input_error("correct fit.json --ideal --target gone.toml -o table.csv", "gone.toml");
+  expect_input_error("table fit.json --ideal --target target.toml -o table.csv", "target.toml:1:1");
+  expect_input_error("table fit.json --ideal --target gone.toml -o table.csv", "gone.toml");
 }
 
 }  // namespace

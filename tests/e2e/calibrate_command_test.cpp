@@ -23,7 +23,8 @@ class CalibrateCommand : public CommandTest {
 
 // The example was made with Z0A 31 µm, B0C 60 and C0A −45 µrad; U is printed in degrees.
 TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
-  const auto done = command(line({"calibrate", machine_, ball_, "-o e.toml --json c.json"}));
+  const auto done =
+      command(line({"machine calibrate --machine", machine_, ball_, "-o e.toml --json c.json"}));
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("c.json");
   EXPECT_EQ(json["schema"], "trueaxis.calibration/1");
@@ -36,10 +37,11 @@ TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
   EXPECT_FALSE(json["not_determined"].empty());
   for (const auto& one : json["not_determined"])
     EXPECT_FALSE(one["why"].get<std::string>().empty());
-  const auto pose =
-      command(line({"pose", machine_, data("trunnion_ac_positions.csv"), "--errors e.toml"}));
+  const auto pose = command(line(
+      {"machine pose --machine", machine_, data("trunnion_ac_positions.csv"), "--errors e.toml"}));
   EXPECT_EQ(pose.exit_code, 0) << pose.err;
-  const auto again = command(line({"calibrate", machine_, ball_, "--errors e.toml -o f.toml"}));
+  const auto again =
+      command(line({"machine calibrate --machine", machine_, ball_, "--errors e.toml -o f.toml"}));
   ASSERT_EQ(again.exit_code, 0) << again.err;
 }
 
@@ -57,9 +59,11 @@ TEST_F(CalibrateCommand, FindsWhatTheVirtualMachineHides) {
                    "ball_mm = [[60, 20, 30]]\ntool_length_mm = 120\nnoise_um = 1\n"
                    "positions.A_deg = [-80, -55, -30, -5, 20]\n"
                    "positions.C_deg = [0, 30, 60, 90, 120, 150, 180, 210, 240, 270, 300, 330]\n"));
-  ASSERT_EQ(command("simulate ball.toml -o ball.csv").exit_code, 0);
-  ASSERT_EQ(command(line({"calibrate", machine_, "ball.csv -o e.toml --json c.json"})).exit_code,
-            0);
+  ASSERT_EQ(command("machine simulate ball.toml -o ball.csv").exit_code, 0);
+  ASSERT_EQ(
+      command(line({"machine calibrate --machine", machine_, "ball.csv -o e.toml --json c.json"}))
+          .exit_code,
+      0);
   const nlohmann::json found = result("c.json")["parameters"];
   const std::map<std::string, double> hidden{
       {"X0C", 0.025}, {"B0C", 60e-6 * 180.0 / 3.14159265358979}, {"Y0A", -0.018}, {"Z0A", 0.031}};
@@ -72,8 +76,14 @@ TEST_F(CalibrateCommand, FindsWhatTheVirtualMachineHides) {
 
 // The same bytes come twice.
 TEST_F(CalibrateCommand, IsDeterministic) {
-  ASSERT_EQ(command(line({"calibrate", machine_, ball_, "-o e.toml --json c.json"})).exit_code, 0);
-  ASSERT_EQ(command(line({"calibrate", machine_, ball_, "-o f.toml --json d.json"})).exit_code, 0);
+  ASSERT_EQ(
+      command(line({"machine calibrate --machine", machine_, ball_, "-o e.toml --json c.json"}))
+          .exit_code,
+      0);
+  ASSERT_EQ(
+      command(line({"machine calibrate --machine", machine_, ball_, "-o f.toml --json d.json"}))
+          .exit_code,
+      0);
   EXPECT_EQ(read_text(folder_ / "e.toml"), read_text(folder_ / "f.toml"));
   EXPECT_EQ(read_text(folder_ / "c.json"), read_text(folder_ / "d.json"));
 }
@@ -81,7 +91,7 @@ TEST_F(CalibrateCommand, IsDeterministic) {
 // The example hides EXC of order 2, amplitude √(3² + 2²) = 3.6 µm.
 TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
   const auto done =
-      command(line({"diagnose", ball_, "--machine", machine_, "--json d.json -o e.toml"}));
+      command(line({"machine diagnose", ball_, "--machine", machine_, "--json d.json -o e.toml"}));
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("d.json");
   EXPECT_EQ(json["schema"], "trueaxis.machine_diagnosis/1");
@@ -97,8 +107,8 @@ TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
             json["gain"]["held_out_rms_before"]["value"]);
   EXPECT_TRUE(contains(done.out, "EXC.harmonic2"));
   // With the errors that it wrote nothing is left to be found.
-  const auto again = command(
-      line({"diagnose", ball_, "--machine", machine_, "--errors e.toml --json again.json"}));
+  const auto again = command(line(
+      {"machine diagnose", ball_, "--machine", machine_, "--errors e.toml --json again.json"}));
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(result("again.json")["verdict"], "ideal");
 }
@@ -116,7 +126,8 @@ TEST_F(CalibrateCommand, ReadOutOfAnAxis) {
     text += row;
   }
   file("z.csv", text);
-  const auto done = command(line({"calibrate", machine_, "z.csv -o e.toml --json c.json"}));
+  const auto done =
+      command(line({"machine calibrate --machine", machine_, "z.csv -o e.toml --json c.json"}));
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json read_out = result("c.json")["read_outs"][0];
   EXPECT_NEAR(read_out["period"]["value"].get<double>(), 4.0, 1e-3);

@@ -44,10 +44,10 @@ TEST_F(CheckOption, OfALathe) {
   expect_checked("advise " + data + "jobs/shaft.toml", "next measurement");
   expect_checked("advise " + cone + " --surface cone", "next measurement");
   expect_checked("simulate " + data + "scenarios/cone_shaft.toml -o s.csv", "probe the part");
-  expect_checked("sweep " + data + "sweeps/cut.toml -o sweep", "8 cells of 20");
+  expect_checked("study sweep " + data + "sweeps/cut.toml -o sweep", "8 cells of 20");
   expect_checked("spindle " + cone, "separate part and spindle");
-  expect_checked("plan --surface cylinder --radius-mm 20 --goal-um 1", "search the plans");
-  expect_checked("axis-bias -o bias", "effects, one at a time");
+  expect_checked("study plan --surface cylinder --radius-mm 20 --goal-um 1", "search the plans");
+  expect_checked("study axis-bias -o bias", "effects, one at a time");
 }
 
 // A gauge's readings are no positions, which an association of points needs: `--check` refuses what
@@ -73,15 +73,16 @@ TEST_F(CheckOption, OfAMachine) {
   expect_checked("run " + data + "jobs/blade.toml -o out", "rewrite ");
   expect_checked("diagnose " + measured + " --json d.json", "by 120 rows");
   expect_checked("advise " + measured, "next measurement");
-  expect_checked("calibrate " + of + "trunnion_ac.toml " + of + "trunnion_ac_ball.csv -o e.toml",
+  expect_checked("machine calibrate --machine " + of + "trunnion_ac.toml " + of +
+                     "trunnion_ac_ball.csv -o e.toml",
                  "from 240 rows");
-  expect_checked("compensate " + of + "holes.nc --machine " + of + "zxacy.toml --errors " + of +
-                     "zxacy_errors.toml -o n.nc",
+  expect_checked("machine compensate " + of + "holes.nc --machine " + of + "zxacy.toml --errors " +
+                     of + "zxacy_errors.toml -o n.nc",
                  "rewrite 36 moves");
-  expect_checked("simulate " + of + "ball.toml -o b.csv", "play the measurement");
-  expect_checked("simulate " + of + "cut.toml --json c.json", "cut the program");
-  expect_checked("datum " + of + "holes.toml -o e.toml", "where the part");
-  expect_checked("locate " + of + "hong.toml", "where the part");
+  expect_checked("machine simulate " + of + "ball.toml -o b.csv", "play the measurement");
+  expect_checked("machine simulate " + of + "cut.toml --json c.json", "cut the program");
+  expect_checked("setup datums " + of + "holes.toml -o e.toml", "where the part");
+  expect_checked("setup locators " + of + "hong.toml", "where the part");
 }
 
 TEST_F(CheckOption, SaysAllThatIsWrongAtOnce) {
@@ -97,9 +98,11 @@ TEST_F(CheckOption, SaysAllThatIsWrongAtOnce) {
   expect_all_said("simulate bad.toml -o s.csv", {"surfce", "radius_mm", "pass"});
   file("bad.nc", "G1 X1 Q\nG68.2 X0\n");
   const std::string of = data + "five_axis/";
-  expect_all_said("compensate bad.nc --machine " + of + "zxacy.toml --errors none.toml -o n.nc",
-                  {"bad.nc:1:", "bad.nc:2:", "none.toml"});
-  expect_all_said("calibrate " + of + "trunnion_ac.toml stream.csv --errors none.toml -o e.toml",
+  expect_all_said(
+      "machine compensate bad.nc --machine " + of + "zxacy.toml --errors none.toml -o n.nc",
+      {"bad.nc:1:", "bad.nc:2:", "none.toml"});
+  expect_all_said("machine calibrate --machine " + of +
+                      "trunnion_ac.toml stream.csv --errors none.toml -o e.toml",
                   {"stream.csv", "none.toml"});
 }
 

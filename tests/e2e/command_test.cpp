@@ -41,8 +41,8 @@ TEST_F(ExitCode, OneForARefusal) {
   EXPECT_EQ(code("run tight.toml -o tight"), 1);
   EXPECT_EQ(code("run fast.toml -o fast"), 1);
   ASSERT_EQ(code("fit part.csv --surface cylinder --json fit.json"), 0);
-  EXPECT_EQ(code("correct fit.json --ideal --target fast.toml -o table.csv"), 1);
-  EXPECT_EQ(code("correct fit.json --ideal --target fast.toml --preview"), 1);
+  EXPECT_EQ(code("table fit.json --ideal --target fast.toml -o table.csv"), 1);
+  EXPECT_EQ(code("table fit.json --ideal --target fast.toml --preview"), 1);
 }
 
 TEST_F(ExitCode, TwoForUsage) {
@@ -53,11 +53,11 @@ TEST_F(ExitCode, TwoForUsage) {
                                 "fit part.csv --surface ball",
                                 "fit part.csv part.csv --surface cone",
                                 "fit part.csv --surface cone --loss cauchy",
-                                "fit part.csv --surface cone --noise -1",
-                                "fit part.csv --surface cone --noise nan",
-                                "fit part.csv --surface cone --ball-radius inf",
+                                "fit part.csv --surface cone --noise-um -1",
+                                "fit part.csv --surface cone --noise-um nan",
+                                "fit part.csv --surface cone --ball-radius-mm inf",
                                 "fit part.csv --surface cone --coverage-factor 0",
-                                "fit part.csv --surface cone --relative --nominal-radius -3",
+                                "fit part.csv --surface cone --relative --nominal-radius-mm -3",
                                 "fit part.csv --surface cone --diameter --radius",
                                 "fit part.csv --surface cone --json - --residuals -",
                                 "fit part.csv --surface cone --json same --residuals same",
@@ -69,11 +69,10 @@ TEST_F(ExitCode, TwoForUsage) {
                                 "advise",
                                 "advise part.csv",
                                 "run",
-                                "run job.toml",
-                                "correct",
-                                "correct fit.json --target t.toml",
-                                "correct fit.json --target t.toml --preview -o table.csv",
-                                "correct fit.json --ideal --diagnosis d.json --target t.toml -o t",
+                                "table",
+                                "table fit.json --target t.toml",
+                                "table fit.json --target t.toml --preview -o table.csv",
+                                "table fit.json --ideal --diagnosis d.json --target t.toml -o t",
                                 "run job.toml -o ''",
                                 "fit part.csv --surface cone --json ''",
                                 "simulate",
@@ -112,7 +111,7 @@ TEST_F(ExitCode, ThreeForInput) {
   expect_input_error("advise gone.toml", "gone.toml: cannot be read");
   expect_input_error("run job.toml -o out", "gone.csv: cannot be read");
   expect_input_error("run gone.toml -o out", "gone.toml: cannot be read");
-  expect_input_error("correct part.csv --target job.toml -o table.csv", "trueaxis.fit/1");
+  expect_input_error("table part.csv --target job.toml -o table.csv", "trueaxis.fit/1");
   expect_input_error("simulate job.toml -o stream.csv", "has no key `reference`");
 }
 

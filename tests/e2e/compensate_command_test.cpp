@@ -27,7 +27,7 @@ class CompensateCommand : public CommandTest {
   CommandStreams compensate(const std::string& name, const std::string& text,
                             const std::string& options) {
     file(name, text);
-    return command("compensate " + name + " " + options);
+    return command("machine compensate " + name + " " + options);
   }
 };
 
@@ -41,7 +41,8 @@ TEST_F(CompensateCommand, TheHashOfAMachineIsThatOfTheBytesThatWereRead) {
   writer.join();
   ASSERT_EQ(piped.exit_code, 0) << piped.err;
   ASSERT_EQ(
-      command("compensate p.nc --machine " + machine + errors + "--json r.json --force").exit_code,
+      command("machine compensate p.nc --machine " + machine + errors + "--json r.json --force")
+          .exit_code,
       0);
   EXPECT_EQ(result("piped.json").at("inputs")[1].at("hash"),
             result("r.json").at("inputs")[1].at("hash"));
@@ -104,9 +105,9 @@ TEST_F(CompensateCommand, WithoutErrorsGivesTheSameBytes) {
 
 TEST_F(CompensateCommand, ListsAllThatIsRefusedAtOnce) {
   file("p.nc", "G0 X0 Y0 Z0 A0 C0\nG2 X1 Y1 I1\nN7 X#1 B5\nG68.2 P1 X0\nG1 X1e3\n");
-  expect_input_error("compensate p.nc " + of_trunnion + "-o out.nc --json r.json",
+  expect_input_error("machine compensate p.nc " + of_trunnion + "-o out.nc --json r.json",
                      "p.nc:2:1: G2 is an arc");
-  const std::string err = command("compensate p.nc " + of_trunnion + "-o out.nc").err;
+  const std::string err = command("machine compensate p.nc " + of_trunnion + "-o out.nc").err;
   for (const char* const place : {"p.nc:2:1:", "p.nc:3:4:", "p.nc:3:8:", "p.nc:4:1:", "p.nc:5:4:"})
     EXPECT_TRUE(contains(err, place)) << place << '\n' << err;
 }
@@ -142,7 +143,7 @@ TEST_F(CompensateCommand, AtAPoleTheTipIsExactAndTheBlockIsListed) {
   for (const char* const axis : {"A", "C"})
     EXPECT_LE(value_of(json.at("largest_change").at(axis)), 20.0 * angle) << axis;
   // A is where a machine begins: the program does not move it.
-  ASSERT_EQ(command("compensate p.nc " + of_trunnion + "-o still.nc").exit_code, 0);
+  ASSERT_EQ(command("machine compensate p.nc " + of_trunnion + "-o still.nc").exit_code, 0);
   EXPECT_TRUE(contains(read_text(folder_ / "still.nc"), " A0. C10"))
       << read_text(folder_ / "still.nc");
 }
@@ -150,12 +151,13 @@ TEST_F(CompensateCommand, AtAPoleTheTipIsExactAndTheBlockIsListed) {
 TEST_F(CompensateCommand, ReplacesNoProgramUnasked) {
   file("out.nc", "(mine)\n");
   file("p.nc", hole);
-  expect_input_error("compensate p.nc " + of_trunnion + "-o out.nc", "--force");
-  expect_input_error("compensate p.nc " + of_trunnion + "-o p.nc --force", "is an input");
-  EXPECT_EQ(command("compensate p.nc " + of_trunnion + "-o out.nc --force").exit_code, 0);
+  expect_input_error("machine compensate p.nc " + of_trunnion + "-o out.nc", "--force");
+  expect_input_error("machine compensate p.nc " + of_trunnion + "-o p.nc --force", "is an input");
+  EXPECT_EQ(command("machine compensate p.nc " + of_trunnion + "-o out.nc --force").exit_code, 0);
   EXPECT_TRUE(contains(read_text(folder_ / "out.nc"), "X100.0360"));
   // The same program again, with other numbers, needs no --force.
-  EXPECT_EQ(command("compensate p.nc " + of_trunnion + "-o out.nc --decimals 6").exit_code, 0);
+  EXPECT_EQ(command("machine compensate p.nc " + of_trunnion + "-o out.nc --decimals 6").exit_code,
+            0);
   EXPECT_TRUE(contains(read_text(folder_ / "out.nc"), "X100.036035"));
 }
 
@@ -241,13 +243,14 @@ TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfIt) {
   if (shell("command -v rs274").exit_code != 0) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
   fs::copy_file(five_axis_data + "example.nc", folder_ / "p.nc");
   file("tool.tbl", "T1 P1 Z120 D1\n");
-  ASSERT_EQ(command("compensate p.nc " + of_trunnion + "-o out.nc").exit_code, 0);
+  ASSERT_EQ(command("machine compensate p.nc " + of_trunnion + "-o out.nc").exit_code, 0);
   const auto source = calls(folder_, "p.nc"), written = calls(folder_, "out.nc");
   EXPECT_GT(source.size(), 20u);
   EXPECT_EQ(written, source);
   // In pieces it makes more moves, before which a feed mode may be said again, and nothing else.
-  ASSERT_EQ(command("compensate p.nc " + of_trunnion + "-o pieces.nc --tolerance-um 2").exit_code,
-            0);
+  ASSERT_EQ(
+      command("machine compensate p.nc " + of_trunnion + "-o pieces.nc --tolerance-um 2").exit_code,
+      0);
   const auto pieces = calls(folder_, "pieces.nc");
   EXPECT_GT(pieces.size(), source.size());
   const auto not_feeds = [](std::vector<std::string> list) {

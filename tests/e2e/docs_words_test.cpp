@@ -94,12 +94,13 @@ TEST_F(GlossaryOfScreens, HasTheWordOfEveryLine) {
   for (const std::string& one :
        {"run " + data + "jobs/shaft.toml -o a", "run " + data + "jobs/shaft_three_lobes.toml -o b",
         "fit " + data + "streams/shaft_cone_seat.csv --surface cone",
-        "run " + data + "jobs/blade.toml -o c", "locate " + of + "hong.toml",
-        "calibrate " + of + "trunnion_ac.toml " + of + "trunnion_ac_ball.csv -o e.toml",
-        "diagnose " + of + "zxacy_ball.csv --machine " + of + "zxacy.toml --program " + of +
+        "run " + data + "jobs/blade.toml -o c", "setup locators " + of + "hong.toml",
+        "machine calibrate --machine " + of + "trunnion_ac.toml " + of +
+            "trunnion_ac_ball.csv -o e.toml",
+        "machine diagnose " + of + "zxacy_ball.csv --machine " + of + "zxacy.toml --program " + of +
             "blade.nc",
         "advise " + of + "zxacy_ball.csv --machine " + of + "zxacy.toml",
-        "compensate " + of + "holes.nc --machine " + of + "zxacy.toml --errors " + of +
+        "machine compensate " + of + "holes.nc --machine " + of + "zxacy.toml --errors " + of +
             "zxacy_errors.toml -o n.nc"}) {
     std::istringstream lines(command(one).out);
     std::string line;

@@ -25,7 +25,7 @@ class DrillingCycles : public CommandTest {
     file("e.toml", bc_errors(seed));
     file("p.nc", program);
     return command(
-        "compensate p.nc --machine m.toml --errors e.toml -o out.nc --json r.json "
+        "machine compensate p.nc --machine m.toml --errors e.toml -o out.nc --json r.json "
         "--force " +
         more);
   }
@@ -65,7 +65,7 @@ TEST_F(DrillingCycles, AreWhereTheSourceHasThem) {
 TEST_F(DrillingCycles, StayWithoutErrors) {
   file("m.toml", bc_trunnion);
   file("p.nc", holes);
-  ASSERT_EQ(command("compensate p.nc --machine m.toml -o out.nc").exit_code, 0);
+  ASSERT_EQ(command("machine compensate p.nc --machine m.toml -o out.nc").exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "out.nc"), holes);
 }
 

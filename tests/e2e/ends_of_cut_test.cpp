@@ -145,7 +145,7 @@ TEST_F(EndsOfCut, CorrectEndsWhereRunDoes) {
   for (const Cut& cut : {cuts[0], cuts[4]}) {
     file("job.toml", job(cut));
     ASSERT_EQ(command("run job.toml -o out --force").exit_code, 0);
-    const CommandStreams done = command("correct d.json --target job.toml -o t.csv --force");
+    const CommandStreams done = command("table d.json --target job.toml -o t.csv --force");
     ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
     const auto of_run = read_rows(read_text(folder_ / "out/table.csv")),
                rows = read_rows(read_text(folder_ / "t.csv"));
@@ -181,7 +181,7 @@ TEST_F(EndsOfCut, AShoulderIsNotRunInto) {
     EXPECT_EQ(done.exit_code, 1) << done.out;
     EXPECT_TRUE(contains(done.out, says)) << done.out;
     EXPECT_FALSE(there("out/table.csv"));
-    const CommandStreams corrected = command("correct d.json --target job.toml -o t.csv");
+    const CommandStreams corrected = command("table d.json --target job.toml -o t.csv");
     EXPECT_EQ(corrected.exit_code, 1);
     EXPECT_TRUE(contains(corrected.err, says)) << corrected.err;
     EXPECT_FALSE(there("t.csv"));

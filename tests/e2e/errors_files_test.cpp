@@ -12,8 +12,8 @@ class ErrorsFiles : public CommandTest {
  protected:
   /// The numbers of the only row of `pose` at the worked example of docs/reference/machine.md.
   std::vector<double> pose(const std::string& errors) {
-    const CommandStreams done =
-        command("pose " + machine_ + ' ' + data_ + "trunnion_ac_positions.csv --errors " + errors);
+    const CommandStreams done = command("machine pose --machine " + machine_ + ' ' + data_ +
+                                        "trunnion_ac_positions.csv --errors " + errors);
     EXPECT_EQ(done.exit_code, 0) << done.err;
     std::istringstream lines(done.out);
     std::string row;
@@ -47,7 +47,8 @@ TEST_F(ErrorsFiles, OfTheWorkpieceHaveNoSign) {
   expect_actual(pose("machine.toml --errors part.toml"));
   expect_actual(pose("part.toml --errors machine.toml"));
   // Written as one file they say the sign of the first.
-  ASSERT_EQ(command("errors " + machine_ + " --errors part.toml --errors machine.toml -o both.toml")
+  ASSERT_EQ(command("machine errors --machine " + machine_ +
+                    " --errors part.toml --errors machine.toml -o both.toml")
                 .exit_code,
             0);
   EXPECT_TRUE(contains(read_text(folder_ / "both.toml"), "sign = \"tool_minus_workpiece\""));
@@ -56,14 +57,15 @@ TEST_F(ErrorsFiles, OfTheWorkpieceHaveNoSign) {
 
 // What `locate` writes beside a machine's errors: both displacements, and both uncertainties.
 TEST_F(ErrorsFiles, LocatedPartOnAMachineWithErrors) {
-  ASSERT_EQ(command("locate " + data_ + "hong.toml -o part.toml").exit_code, 0);
-  ASSERT_EQ(command("calibrate " + machine_ + ' ' + data_ + "trunnion_ac_ball.csv -o machine.toml")
+  ASSERT_EQ(command("setup locators " + data_ + "hong.toml -o part.toml").exit_code, 0);
+  ASSERT_EQ(command("machine calibrate --machine " + machine_ + ' ' + data_ +
+                    "trunnion_ac_ball.csv -o machine.toml")
                 .exit_code,
             0);
   const auto U_with = [&](const std::string& errors) {
     const CommandStreams done =
-        command("compensate " + data_ + "example.nc --machine " + machine_ + " --errors " + errors +
-                " -o cut.nc --tolerance-um 20 --json c.json --force");
+        command("machine compensate " + data_ + "example.nc --machine " + machine_ + " --errors " +
+                errors + " -o cut.nc --tolerance-um 20 --json c.json --force");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     return result("c.json").at("U").at("value").get<double>();
   };
@@ -76,7 +78,7 @@ TEST_F(ErrorsFiles, LocatedPartOnAMachineWithErrors) {
 
 // Found terms are uncertain together with the location errors: EXC of order 2 in the example.
 TEST_F(ErrorsFiles, DiagnoseWritesTheCovarianceOfWhatItFinds) {
-  ASSERT_EQ(command("diagnose " + data_ + "trunnion_ac_ball.csv --machine " + machine_ +
+  ASSERT_EQ(command("machine diagnose " + data_ + "trunnion_ac_ball.csv --machine " + machine_ +
                     " -o d.toml --json d.json")
                 .exit_code,
             0);
@@ -84,8 +86,9 @@ TEST_F(ErrorsFiles, DiagnoseWritesTheCovarianceOfWhatItFinds) {
   EXPECT_TRUE(contains(text, "[covariance]"));
   EXPECT_TRUE(contains(text, "{name = \"EXC\", cos = 2, period_deg = 360},"));
   EXPECT_TRUE(contains(text, "name = \"trunnion AC\""));
-  const CommandStreams done = command("compensate " + data_ + "example.nc --machine " + machine_ +
-                                      " --errors d.toml -o cut.nc --tolerance-um 20 --json c.json");
+  const CommandStreams done =
+      command("machine compensate " + data_ + "example.nc --machine " + machine_ +
+              " --errors d.toml -o cut.nc --tolerance-um 20 --json c.json");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_GT(result("c.json").at("U").at("value").get<double>(), 0.0);
 }
@@ -94,10 +97,11 @@ TEST_F(ErrorsFiles, DiagnoseWritesTheCovarianceOfWhatItFinds) {
 // counts no uncertainty twice: what is estimated anew is not added to what it was.
 TEST_F(ErrorsFiles, CalibrateGoesOnFromItsOwnErrors) {
   const std::string ball = data_ + "trunnion_ac_ball.csv";
-  const auto once = command("calibrate " + machine_ + ' ' + ball + " -o e.toml --json e.json");
+  const auto once =
+      command("machine calibrate --machine " + machine_ + ' ' + ball + " -o e.toml --json e.json");
   ASSERT_EQ(once.exit_code, 0) << once.err;
-  const auto again =
-      command("calibrate " + machine_ + ' ' + ball + " --errors e.toml -o f.toml --json f.json");
+  const auto again = command("machine calibrate --machine " + machine_ + ' ' + ball +
+                             " --errors e.toml -o f.toml --json f.json");
   ASSERT_EQ(again.exit_code, 0) << again.err;
   const nlohmann::json first = result("e.json").at("parameters"),
                        second = result("f.json").at("parameters");
@@ -126,7 +130,8 @@ TEST_F(ErrorsFiles, AsLargeAsNoMachineHasThemOnlyWhereItIsSaid) {
   const std::string head = "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n",
                     entry = "[[error]]\nname = \"X0C\"\nvalue_mm = 5.5\n";
   const auto X0C = [&](const std::string& call) {
-    const CommandStreams done = command("errors " + machine_ + " --json - --errors " + call);
+    const CommandStreams done =
+        command("machine errors --machine " + machine_ + " --json - --errors " + call);
     return done.exit_code == 0
                ? nlohmann::json::parse(done.out).at("location").at("X0C").at("value").get<double>()
                : -done.exit_code;
@@ -163,16 +168,19 @@ TEST_F(ErrorsFiles, ThatDoNotSayTheirMachineAreTakenWithAWord) {
                     head = "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n";
   file("own.toml", head + "[[error]]\nname = \"X0C\"\nvalue_um = 25\n");
   file("part.toml", head + "[[error]]\nname = \"X0W\"\nvalue_um = 25\n");
-  ASSERT_EQ(command("errors " + machine_ + " --errors own.toml -o stated.toml").exit_code, 0);
+  ASSERT_EQ(command("machine errors --machine " + machine_ + " --errors own.toml -o stated.toml")
+                .exit_code,
+            0);
   const std::string ball = data_ + "trunnion_ac_ball.csv";
   const struct {
     std::string before, behind;
-  } calls[] = {{"compensate " + data_ + "example.nc --tolerance-um 20 --machine " + machine_,
-                " -o o.nc --json j.json"},
-               {"calibrate " + machine_ + ' ' + ball, " -o o.toml --json j.json"},
-               {"diagnose " + ball + " --machine " + machine_, " -o d.toml --json j.json"},
-               {"errors " + machine_, " --json j.json"},
-               {"pose " + machine_ + ' ' + data_ + "trunnion_ac_positions.csv", ""}};
+  } calls[] = {
+      {"machine compensate " + data_ + "example.nc --tolerance-um 20 --machine " + machine_,
+       " -o o.nc --json j.json"},
+      {"machine calibrate --machine " + machine_ + ' ' + ball, " -o o.toml --json j.json"},
+      {"machine diagnose " + ball + " --machine " + machine_, " -o d.toml --json j.json"},
+      {"machine errors --machine " + machine_, " --json j.json"},
+      {"machine pose --machine " + machine_ + ' ' + data_ + "trunnion_ac_positions.csv", ""}};
   for (const auto& [before, behind] : calls)
     for (const std::string name : {"own.toml", "stated.toml", "part.toml"}) {
       const auto done =
@@ -186,18 +194,20 @@ TEST_F(ErrorsFiles, ThatDoNotSayTheirMachineAreTakenWithAWord) {
 }
 
 TEST_F(ErrorsFiles, OfAnotherMachineAreRefused) {
-  ASSERT_EQ(
-      command("calibrate " + machine_ + ' ' + data_ + "trunnion_ac_ball.csv -o e.toml").exit_code,
-      0);
+  ASSERT_EQ(command("machine calibrate --machine " + machine_ + ' ' + data_ +
+                    "trunnion_ac_ball.csv -o e.toml")
+                .exit_code,
+            0);
   std::string other = read_text(machine_);
   const std::string point = "point_mm = [0, 15, -40]";
   ASSERT_NE(other.find(point), std::string::npos);
   other.replace(other.find(point), point.size(), "point_mm = [0, 15.2, -40]");
   file("other.toml", other);
   for (const std::string& call :
-       {"compensate " + data_ + "example.nc --machine other.toml --errors e.toml -o cut.nc",
-        "pose other.toml " + data_ + "trunnion_ac_positions.csv --errors e.toml",
-        "calibrate other.toml " + data_ + "trunnion_ac_ball.csv --errors e.toml -o f.toml"}) {
+       {"machine compensate " + data_ + "example.nc --machine other.toml --errors e.toml -o cut.nc",
+        "machine pose --machine other.toml " + data_ + "trunnion_ac_positions.csv --errors e.toml",
+        "machine calibrate --machine other.toml " + data_ +
+            "trunnion_ac_ball.csv --errors e.toml -o f.toml"}) {
     const CommandStreams done = command(call);
     EXPECT_EQ(done.exit_code, 3) << call;
     EXPECT_TRUE(contains(done.err, "e.toml:")) << done.err;
@@ -209,8 +219,8 @@ TEST_F(ErrorsFiles, OfAnotherMachineAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "cut.nc"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "f.toml"));
   // The workpiece's are of no machine.
-  ASSERT_EQ(command("locate " + data_ + "hong.toml -o part.toml").exit_code, 0);
-  EXPECT_EQ(command("compensate " + data_ +
+  ASSERT_EQ(command("setup locators " + data_ + "hong.toml -o part.toml").exit_code, 0);
+  EXPECT_EQ(command("machine compensate " + data_ +
                     "example.nc --machine other.toml --errors part.toml -o cut.nc")
                 .exit_code,
             0);

@@ -199,8 +199,8 @@ TEST_F(FitCommand, GaugeNeedsANominalRadius) {
   file("bare.csv", csv(readings));
   expect_input_error("fit gauge.csv --surface cylinder --json f.json", "nominal_radius");
   expect_input_error("fit bare.csv --surface cylinder --json f.json", "changes sign");
-  for (const char* arguments : {"gauge.csv --surface cylinder --nominal-radius 30",
-                                "bare.csv --surface cylinder --relative --nominal-radius 30"}) {
+  for (const char* arguments : {"gauge.csv --surface cylinder --nominal-radius-mm 30",
+                                "bare.csv --surface cylinder --relative --nominal-radius-mm 30"}) {
     const json fit = fitted(arguments);
     EXPECT_NEAR(value(fit, "x0"), 0.08, 1e-9);
     EXPECT_TRUE(fit.at("parameters").at("radius").at("value").is_null());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `trueaxis locate` and `trueaxis datum` as a user meets them, and their errors in the machine.
+// `trueaxis setup locators` and `trueaxis setup datums` as a user meets them, and their errors in
+// the machine.
 #include <cmath>
 
 #include "support/chain_matrices.hpp"
@@ -39,7 +40,7 @@ class FixtureCommand : public CommandTest {
 
 TEST_F(FixtureCommand, TableOneOfHongAndYeh) {
   const CommandStreams done =
-      command("locate " + of_data("hong.toml") + " --json h.json -o E.toml");
+      command("setup locators " + of_data("hong.toml") + " --json h.json -o E.toml");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("h.json"), paper = json.at("paper");
   EXPECT_EQ(json.at("schema"), "trueaxis.setup/1");
@@ -59,23 +60,24 @@ TEST_F(FixtureCommand, TableOneOfHongAndYeh) {
             std::vector<std::string>{
                 "G68.2 X-0.181862 Y0.114244 Z-0.066156 I-11.506192 J0.108786 K11.499672"});
   EXPECT_TRUE(contains(done.out, "SPA+0.106602 SPB-0.021688 SPC-0.006540"));
-  const CommandStreams all = command("locate " + of_data("hong.toml") + " --verbose");
+  const CommandStreams all = command("setup locators " + of_data("hong.toml") + " --verbose");
   EXPECT_TRUE(contains(all.out, "alpha 0.1066  beta -0.0217  gamma -0.0065 deg")) << all.out;
   expect_same(by_errors(json), json.at("matrix"), 1e-13);
   EXPECT_TRUE(read_text(folder_ / "E.toml").starts_with("# schema: trueaxis.errors/1\n"));
   // The same bytes again, over its own results.
   const std::string before = read_text(folder_ / "h.json");
-  ASSERT_EQ(command("locate " + of_data("hong.toml") + " --json h.json -o E.toml").exit_code, 0);
+  ASSERT_EQ(
+      command("setup locators " + of_data("hong.toml") + " --json h.json -o E.toml").exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "h.json"), before);
-  const CommandStreams coarse = command("locate " + of_data("hong.toml") + " --decimals 4");
+  const CommandStreams coarse = command("setup locators " + of_data("hong.toml") + " --decimals 4");
   EXPECT_TRUE(contains(coarse.out, "TRANS X-0.1819 Y0.1142 Z-0.0662\n")) << coarse.out;
-  EXPECT_EQ(command("locate " + of_data("hong.toml") + " --decimals 2").exit_code, 2);
+  EXPECT_EQ(command("setup locators " + of_data("hong.toml") + " --decimals 2").exit_code, 2);
 }
 
 // Three locators 1 µm uncertain: u of the height at their centre is 1/√3 µm and of D at any point
 // what the covariance says; a tip's u alone moves Z at A by itself.
 TEST_F(FixtureCommand, CovarianceAtALocatorIsThatOfItsTip) {
-  ASSERT_EQ(command("locate " + of_data("hong.toml") + " --json h.json").exit_code, 0);
+  ASSERT_EQ(command("setup locators " + of_data("hong.toml") + " --json h.json").exit_code, 0);
   const nlohmann::json covariance = result("h.json").at("covariance");
   const double x[] = {15, 12}, deg = rad_per_deg;
   // δz = δZ0W + y δA0W − x δB0W to first order of the small angles.
@@ -91,10 +93,11 @@ TEST_F(FixtureCommand, CovarianceAtALocatorIsThatOfItsTip) {
 // decimals (0.5 · 10⁻⁴ mm an axis, 5 · 10⁻⁶ deg at 130 mm); with the errors of `datum` the tool is
 // at D⁻¹ of it, up to 0.3 mm off.
 TEST_F(FixtureCommand, TwelveHolesAreOffByTheDatums) {
-  ASSERT_EQ(command("datum " + of_data("holes.toml") + " -o E.toml --json d.json").exit_code, 0);
+  ASSERT_EQ(command("setup datums " + of_data("holes.toml") + " -o E.toml --json d.json").exit_code,
+            0);
   const Holes holes = twelve_holes(read_text(of_data("holes.nc")));
   file("p.csv", positions_csv(holes.at));
-  const std::string pose = "pose " + of_data("zxacy.toml") + " p.csv";
+  const std::string pose = "machine pose --machine " + of_data("zxacy.toml") + " p.csv";
   const auto nominal = rows_of(command(pose).out);
   const auto actual = rows_of(command(pose + " --errors E.toml").out);
   ASSERT_EQ(nominal.size(), 12U);
@@ -119,7 +122,8 @@ TEST_F(FixtureCommand, TwelveHolesAreOffByTheDatums) {
 
 // The tool that goes where the nominal machine would reach D of a hole is in the hole.
 TEST_F(FixtureCommand, TheDisplacedProgramDrillsTheHoles) {
-  ASSERT_EQ(command("datum " + of_data("holes.toml") + " -o E.toml --json d.json").exit_code, 0);
+  ASSERT_EQ(command("setup datums " + of_data("holes.toml") + " -o E.toml --json d.json").exit_code,
+            0);
   const Matrix4 D = by_errors(result("d.json"));
   const Holes holes = twelve_holes(read_text(of_data("holes.nc")));
   std::string targets = "x,y,z,i,j,k\n";
@@ -131,13 +135,14 @@ TEST_F(FixtureCommand, TheDisplacedProgramDrillsTheHoles) {
     targets += row;
   }
   file("t.csv", targets);
-  const auto axes = rows_of(command("axes " + of_data("zxacy.toml") + " t.csv").out);
+  const auto axes =
+      rows_of(command("machine inverse --machine " + of_data("zxacy.toml") + " t.csv").out);
   ASSERT_EQ(axes.size(), 12U);
   std::vector<FiveAxes> positions;
   for (const auto& row : axes) positions.push_back({row[2], row[3], row[4], row[5], row[6]});
   file("q.csv", positions_csv(positions));
-  const auto poses =
-      rows_of(command("pose " + of_data("zxacy.toml") + " q.csv --errors E.toml").out);
+  const auto poses = rows_of(
+      command("machine pose --machine " + of_data("zxacy.toml") + " q.csv --errors E.toml").out);
   ASSERT_EQ(poses.size(), 12U);
   for (std::size_t n = 0; n < 12; ++n) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -191,7 +196,7 @@ TEST_F(FixtureCommand, PointsSayTheDatums) {
   file("xy.csv", xy), file("zx.csv", zx), file("yz.csv", yz);
   file("d.toml",
        "[xy]\npoints = \"xy.csv\"\n[zx]\npoints = \"zx.csv\"\n[yz]\npoints = \"yz.csv\"\n");
-  const CommandStreams done = command("datum d.toml --json d.json");
+  const CommandStreams done = command("setup datums d.toml --json d.json");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("d.json"), datums = json.at("datums");
   const auto value = [&](const char* name) { return datums.at(name).at("value").get<double>(); };
@@ -207,7 +212,7 @@ TEST_F(FixtureCommand, PointsSayTheDatums) {
   EXPECT_NEAR(value("Exz"), -std::atan(0.002) / rad_per_deg, 1e-9);  // its normal towards −y
   EXPECT_EQ(json.at("inputs").size(), 4U);
   EXPECT_TRUE(json.at("setup").at("X0W").at("u").is_number());
-  expect_input_error("datum d.toml --json xy.csv", "xy.csv: is an input of this command");
+  expect_input_error("setup datums d.toml --json xy.csv", "xy.csv: is an input of this command");
 }
 
 }  // namespace

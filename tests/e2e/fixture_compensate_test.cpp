@@ -17,11 +17,11 @@ class FixtureCompensate : public CommandTest {
   }
   nlohmann::json compensate(const std::string& part, const std::string& options) {
     const CommandStreams datum =
-        command("datum " + of_data(part + ".toml") + " -o E.toml --json d.json");
+        command("setup datums " + of_data(part + ".toml") + " -o E.toml --json d.json");
     EXPECT_EQ(datum.exit_code, 0) << datum.err;
     const CommandStreams done =
-        command("compensate " + of_data(part + ".nc") + " --machine " + of_data("zxacy.toml") +
-                " --errors E.toml -o cut.nc --json c.json " + options);
+        command("machine compensate " + of_data(part + ".nc") + " --machine " +
+                of_data("zxacy.toml") + " --errors E.toml -o cut.nc --json c.json " + options);
     EXPECT_EQ(done.exit_code, 0) << done.err;
     return result("c.json");
   }
@@ -83,11 +83,11 @@ TEST_F(FixtureCompensate, TheDifferentialLeavesTheSecondOrder) {
   double left_mm[2];
   for (int half = 0; half < 2; ++half) {
     file("d.toml", datums_times(half == 1 ? 0.5 : 1.0));
-    ASSERT_EQ(command("datum d.toml -o E.toml").exit_code, 0);
-    const CommandStreams done =
-        command("compensate " + of_data("holes.nc") + " --machine " + of_data("zxacy.toml") +
-                " --errors E.toml -o cut.nc --json c.json --method differential --decimals 9 "
-                "--angle-decimals 9");
+    ASSERT_EQ(command("setup datums d.toml -o E.toml").exit_code, 0);
+    const CommandStreams done = command(
+        "machine compensate " + of_data("holes.nc") + " --machine " + of_data("zxacy.toml") +
+        " --errors E.toml -o cut.nc --json c.json --method differential --decimals 9 "
+        "--angle-decimals 9");
     ASSERT_EQ(done.exit_code, 0) << done.err;
     left_mm[half] = value(result("c.json").at("error_after").at("position"));
   }
@@ -107,10 +107,11 @@ TEST_F(FixtureCompensate, TheBladeWithinItsTolerance) {
 
 // A file of errors says what it is in its first line: its name may be any.
 TEST_F(FixtureCompensate, ErrorsNeedNoSuffix) {
-  const CommandStreams datum = command("datum " + of_data("holes.toml") + " -o errors_of_the_part");
+  const CommandStreams datum =
+      command("setup datums " + of_data("holes.toml") + " -o errors_of_the_part");
   ASSERT_EQ(datum.exit_code, 0) << datum.err;
   const CommandStreams done =
-      command("compensate " + of_data("holes.nc") + " --machine " + of_data("zxacy.toml") +
+      command("machine compensate " + of_data("holes.nc") + " --machine " + of_data("zxacy.toml") +
               " --errors errors_of_the_part -o cut.nc");
   EXPECT_EQ(done.exit_code, 0) << done.err;
 }

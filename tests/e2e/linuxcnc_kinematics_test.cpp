@@ -62,7 +62,7 @@ class LinuxCncKinematics : public CommandTest {
     return out;
   }
 
-  /// Rows of `trueaxis pose`: x y z i j k twist.
+  /// Rows of `trueaxis machine pose`: x y z i j k twist.
   std::vector<std::array<double, 7>> poses(const std::string& machine, const std::string& header,
                                            const std::vector<Joints>& joints) {
     std::string text = header + '\n';
@@ -73,7 +73,7 @@ class LinuxCncKinematics : public CommandTest {
       text += row;
     }
     file("q.csv", text);
-    const CommandStreams done = command("pose " + machine + " q.csv");
+    const CommandStreams done = command("machine pose --machine " + machine + " q.csv");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     std::vector<std::array<double, 7>> out;
     std::istringstream lines(done.out);
@@ -194,7 +194,7 @@ TEST_F(LinuxCncKinematics, AMachineWithErrorsFollowsTheCompensatedPath) {
   }
   file("p.nc", text);
   const std::string fine = "--decimals 12 --angle-decimals 12 ";
-  ASSERT_EQ(command("compensate p.nc " + of_trunnion + fine + "-o ends.nc").exit_code, 0);
+  ASSERT_EQ(command("machine compensate p.nc " + of_trunnion + fine + "-o ends.nc").exit_code, 0);
   const auto asked = world("./trunnion_kins.so errors=0", joints_of(text));
   const auto got = world("./trunnion_kins.so", joints_of(read_text(folder_ / "ends.nc")));
   ASSERT_EQ(got.size(), asked.size());
@@ -204,7 +204,8 @@ TEST_F(LinuxCncKinematics, AMachineWithErrorsFollowsTheCompensatedPath) {
   // In pieces, with every joint going evenly between them, the tip is near the line it should cut.
   const double tolerance_mm = 5e-3;
   ASSERT_EQ(
-      command("compensate p.nc " + of_trunnion + fine + "--tolerance-um 5 -o pieces.nc").exit_code,
+      command("machine compensate p.nc " + of_trunnion + fine + "--tolerance-um 5 -o pieces.nc")
+          .exit_code,
       0);
   const std::vector<Joints> pieces = joints_of(read_text(folder_ / "pieces.nc"));
   EXPECT_GT(pieces.size(), 2 * nominal.size());
@@ -250,10 +251,12 @@ TEST_F(LinuxCncKinematics, TheControlKeepsTheCompensatedPathWithinTheTolerance) 
   }
   file("p.nc", text + "M2\n");
   const std::string options = " --decimals 6 --angle-decimals 6 ";
-  ASSERT_EQ(command("compensate p.nc " + of_trunnion + options + "-o ends.nc").exit_code, 0);
-  ASSERT_EQ(command("compensate p.nc " + of_trunnion + options + "-o pieces.nc --tolerance-um 5")
-                .exit_code,
+  ASSERT_EQ(command("machine compensate p.nc " + of_trunnion + options + "-o ends.nc").exit_code,
             0);
+  ASSERT_EQ(
+      command("machine compensate p.nc " + of_trunnion + options + "-o pieces.nc --tolerance-um 5")
+          .exit_code,
+      0);
   const auto ran = shell("cd " + shell_word(folder_) + " && " + source_folder +
                          "linuxcnc_control.py pieces.nc samples.txt");
   ASSERT_EQ(ran.exit_code, 0) << ran.output;

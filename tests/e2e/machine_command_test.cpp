@@ -61,19 +61,22 @@ class MachineCommand : public CommandTest {
 // The worked example of docs/reference/machine.md to its last printed digit.
 TEST_F(MachineCommand, PoseOfTheWorkedExample) {
   const std::string positions = data + "trunnion_ac_positions.csv";
-  expect_row("pose " + machine + positions,
+  expect_row("machine pose --machine " + machine + positions,
              {-1.865132837481, 97.227949581144, 59.197672791717, -0.538985544696, 0.196174694969,
               0.819152044289, 0},
              0.5e-12);
-  expect_row("pose " + machine + positions + errors,
+  expect_row("machine pose --machine " + machine + positions + errors,
              {-1.850358534818, 97.210312596243, 59.190929118170, -0.538789781840, 0.196618406978,
               0.819174446026, -0.037854821627},
              0.5e-12);
 }
 
 TEST_F(MachineCommand, AxesGoBackFromPose) {
-  ASSERT_EQ(command("pose " + machine + data + "trunnion_ac_positions.csv -o cl.csv").exit_code, 0);
-  const CommandStreams all = command("axes " + machine + "cl.csv --all");
+  ASSERT_EQ(
+      command("machine pose --machine " + machine + data + "trunnion_ac_positions.csv -o cl.csv")
+          .exit_code,
+      0);
+  const CommandStreams all = command("machine inverse --machine " + machine + "cl.csv --all");
   ASSERT_EQ(all.exit_code, 0) << all.err;
   EXPECT_TRUE(all.out.starts_with("point,solution,X[mm],Y[mm],Z[mm],A[deg],C[deg]\n"));
   const auto rows = rows_of(all.out);
@@ -81,17 +84,18 @@ TEST_F(MachineCommand, AxesGoBackFromPose) {
   const std::vector<double> wanted{1, 1, 100, -50, 30, -35, 70};
   for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(rows[0][i], wanted[i], 1e-10);
   file("far.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n0,5000,0,0,0,1\n");
-  const CommandStreams far = command("axes " + machine + "far.csv -o far_axes.csv");
+  const CommandStreams far =
+      command("machine inverse --machine " + machine + "far.csv -o far_axes.csv");
   EXPECT_EQ(far.exit_code, 1);
   EXPECT_TRUE(contains(far.err, "point 2: Y at")) << far.err;
   EXPECT_FALSE(there("far_axes.csv"));
 }
 
 TEST_F(MachineCommand, ErrorsAtAPosition) {
-  ASSERT_EQ(
-      command("errors " + machine + errors + " --at \"X=100,Y=-50,Z=30,A=-35,C=70\" --json e.json")
-          .exit_code,
-      0);
+  ASSERT_EQ(command("machine errors --machine " + machine + errors +
+                    " --at \"X=100,Y=-50,Z=30,A=-35,C=70\" --json e.json")
+                .exit_code,
+            0);
   const nlohmann::json json = result("e.json");
   EXPECT_EQ(json["component"].size(), 30u);
   EXPECT_EQ(json["location"].size(), 9u);
@@ -104,35 +108,36 @@ TEST_F(MachineCommand, ErrorsAtAPosition) {
 
 TEST_F(MachineCommand, DenavitHartenbergIsItsZeroPosition) {
   file("q.csv", "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n0,0,0,0,0\n100,-50,30,-35,70\n");
-  ASSERT_EQ(command("machine " + data + "vmc50_dh.toml -o zero.toml").exit_code, 0);
-  const auto dh = rows_of(command("pose " + data + "vmc50_dh.toml q.csv").out),
-             zero = rows_of(command("pose zero.toml q.csv").out);
+  ASSERT_EQ(command("machine import " + data + "vmc50_dh.toml -o zero.toml").exit_code, 0);
+  const auto dh = rows_of(command("machine pose --machine " + data + "vmc50_dh.toml q.csv").out),
+             zero = rows_of(command("machine pose --machine zero.toml q.csv").out);
   ASSERT_EQ(dh.size(), 2u);
   ASSERT_EQ(zero.size(), 2u);
   for (std::size_t row = 0; row < 2; ++row)
     for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(dh[row][i], zero[row][i], 1e-12);
-  expect_input_error("machine zero.toml -o again.toml", "zero-position form already");
-  expect_input_error("machine zero.toml -o zero.toml --force", "zero-position form already");
+  expect_input_error("machine import zero.toml -o again.toml", "zero-position form already");
+  expect_input_error("machine import zero.toml -o zero.toml --force", "zero-position form already");
 }
 
 // Written for another control with either sign and read back with it, nothing is lost but the
 // straight line between two of 1001 points.
 TEST_F(MachineCommand, OtherMakersTablesGoThereAndBack) {
   const std::string positions = data + "trunnion_ac_positions.csv";
-  const auto before = only_row("pose " + machine + positions + errors);
+  const auto before = only_row("machine pose --machine " + machine + positions + errors);
   for (const char* sign : {"moving_part", "tool_minus_workpiece"}) {
     for (const char* format : {"isg", "etalon"}) {
       const std::string name = std::string(sign) + (format[0] == 'i' ? ".csv" : ".txt");
       const CommandStreams written =
-          command("errors " + machine + errors + " --points 1001 --format " + format +
-                  " --output-sign " + sign + " -o " + name);
+          command("machine errors --machine " + machine + errors + " --points 1001 --format " +
+                  format + " --output-sign " + sign + " -o " + name);
       ASSERT_EQ(written.exit_code, 0);
       EXPECT_TRUE(contains(written.out, "table  1001 points an axis")) << written.out;
       // The reference of X is none of these formats'; its errors are few: without it C turns about
       // 0 instead of z = -100, of which ECX knows nothing.
-      expect_row("pose " + machine + positions + " --errors " + name + " --sign " + sign, before,
-                 2e-7);
-      expect_input_error("pose " + machine + positions + " --errors " + name,
+      expect_row(
+          "machine pose --machine " + machine + positions + " --errors " + name + " --sign " + sign,
+          before, 2e-7);
+      expect_input_error("machine pose --machine " + machine + positions + " --errors " + name,
                          "does not say the sign");
     }
   }
@@ -145,11 +150,12 @@ TEST_F(MachineCommand, DenavitHartenbergWithErrors) {
             "theta_error_urad = 80\nd_error_um = 15\na_error_um = -7\nalpha_error_urad = 120\n");
   file("dh.toml", dh);
   file("q.csv", "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n100,-50,30,-35,70\n");
-  expect_input_error("machine dh.toml -o zero.toml", "--errors-output");
-  ASSERT_EQ(command("machine dh.toml -o zero.toml --errors-output errors.toml").exit_code, 0);
-  const auto actual = only_row("pose dh.toml q.csv");
-  expect_row("pose zero.toml q.csv --errors errors.toml", actual, 1e-11);
-  const auto nominal = only_row("pose zero.toml q.csv");
+  expect_input_error("machine import dh.toml -o zero.toml", "--errors-output");
+  ASSERT_EQ(command("machine import dh.toml -o zero.toml --errors-output errors.toml").exit_code,
+            0);
+  const auto actual = only_row("machine pose --machine dh.toml q.csv");
+  expect_row("machine pose --machine zero.toml q.csv --errors errors.toml", actual, 1e-11);
+  const auto nominal = only_row("machine pose --machine zero.toml q.csv");
   EXPECT_GT(std::hypot(actual[0] - nominal[0], actual[1] - nominal[1]), 1e-3);
 }
 
@@ -157,7 +163,7 @@ class ForeignTables : public MachineCommand {
  protected:
   /// {value of EXX at X = 50, of EAC at C = 45, of C0C}, mm and rad.
   std::vector<double> values(const std::string& name) {
-    const CommandStreams done = command("errors " + machine + "--errors " + name +
+    const CommandStreams done = command("machine errors --machine " + machine + "--errors " + name +
                                         " --sign moving_part --at X=50,C=45 --json v.json");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     const nlohmann::json json = result("v.json");
@@ -185,7 +191,8 @@ TEST_F(ForeignTables, AreReadAsTheirMakersWriteThem) {
 
 TEST_F(ForeignTables, RefuseWhatIsWrong) {
   file("q.csv", "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n0,0,0,0,0\n");
-  const std::string pose = "pose " + machine + "q.csv --sign moving_part --errors ";
+  const std::string pose =
+      "machine pose --machine " + machine + "q.csv --sign moving_part --errors ";
   file("e.txt",
        "VALUE = 1\n[EXQ]\nVALUE = 1\n[EXX]\n[Y0X]\nVALUE = 1\n[X0C]\nGridpoints = {\n1 2\n0 1\n}\n"
        "[EYX]\nGridpoints = {\n1 2 3\n");
@@ -204,20 +211,23 @@ TEST_F(ForeignTables, RefuseWhatIsWrong) {
 
 TEST_F(ForeignTables, NeedLimitsAndASign) {
   const std::string tables = " --errors " + data + "trunnion_ac_errors.toml --format isg -o t.csv";
-  EXPECT_EQ(command("errors " + machine + tables).exit_code, 2);
+  EXPECT_EQ(command("machine errors --machine " + machine + tables).exit_code, 2);
   std::string free = read_text(data + "trunnion_ac.toml");
   free.erase(free.find("limits_mm"), std::string("limits_mm = [-400, 400]").size());
   file("free.toml", free);
-  expect_input_error("errors free.toml --output-sign moving_part" + tables, "X needs limits_mm");
+  expect_input_error("machine errors --machine free.toml --output-sign moving_part" + tables,
+                     "X needs limits_mm");
 }
 
 TEST_F(MachineCommand, NeverWritesOverWhatItReads) {
   file("m.toml", read_text(data + "trunnion_ac.toml"));
   file("q.csv", "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n0,0,0,0,0\n");
-  expect_input_error("pose m.toml q.csv -o q.csv --force", "is an input of this command");
-  expect_input_error("errors m.toml --json m.toml --force", "is an input of this command");
+  expect_input_error("machine pose --machine m.toml q.csv -o q.csv --force",
+                     "is an input of this command");
+  expect_input_error("machine errors --machine m.toml --json m.toml --force",
+                     "is an input of this command");
   file("mine.csv", "my own table\n");
-  EXPECT_EQ(command("pose m.toml q.csv -o mine.csv").exit_code, 3);
+  EXPECT_EQ(command("machine pose --machine m.toml q.csv -o mine.csv").exit_code, 3);
   EXPECT_EQ(read_text(folder_ / "mine.csv"), "my own table\n");
 }
 
@@ -227,12 +237,12 @@ const char* const minimal =
 TEST_F(MachineCommand, RefusesAMachineWithAllThatIsWrong) {
   file("q.csv", "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n0,0,0,0,0\n");
   file("good.toml", minimal);
-  EXPECT_EQ(command("pose good.toml q.csv").exit_code, 0);
+  EXPECT_EQ(command("machine pose --machine good.toml q.csv").exit_code, 0);
   file("bad.toml",
        "schema = \"trueaxis.machine/1\"\nchain = \"w C A' Y' b X' b U X Z\"\nnam = \"x\"\n"
        "[axes.A]\ndirection = [0, 0, 0]\npoint = [0, 0, 0]\n[axes.Z]\npoint_mm = [0, 0, 1]\n"
        "limits_mm = [5, -5]\n[axes.B]\n[tool]\nlength = 3\n");
-  expect_all("pose bad.toml q.csv",
+  expect_all("machine pose --machine bad.toml q.csv",
              {"bad.toml:2:9: `chain` has not the tool `t`: end with it", "has two beds `b`",
               "has `C` before the bed", "has `X'` behind the bed", "has `U`: the axes are",
               "has the axis X twice", "bad.toml:3:1: the top level has no key `nam`, did you mean",
@@ -241,8 +251,9 @@ TEST_F(MachineCommand, RefusesAMachineWithAllThatIsWrong) {
               "`limits_mm` must hold two numbers", "`B` is no axis of the chain",
               "did you mean `length_mm`", "`program` in the top level is missing"});
   file("nobed.toml", "schema = \"trueaxis.machine/1\"\nchain = \"X Y\"\n[program]\n");
-  expect_all("pose nobed.toml q.csv", {"has not the bed `b`", "has not the workpiece `w`",
-                                       "has 2 axes: three to six", "[program] needs `mode`"});
+  expect_all("machine pose --machine nobed.toml q.csv",
+             {"has not the bed `b`", "has not the workpiece `w`", "has 2 axes: three to six",
+              "[program] needs `mode`"});
 }
 
 TEST_F(MachineCommand, RefusesErrorsWithAllThatIsWrong) {
@@ -256,7 +267,7 @@ TEST_F(MachineCommand, RefusesErrorsWithAllThatIsWrong) {
        "[[error]]\nname = \"EXX\"\nkind = \"fourier\"\nterms_um = [[1, 2]]\n"
        "[[error]]\nname = \"X0C\"\nkind = \"polynomial\"\ncoefficients_um = [1]\n");
   expect_all(
-      "pose m.toml q.csv --errors bad.toml",
+      "machine pose --machine m.toml q.csv --errors bad.toml",
       {"needs `sign`", "has no key `B`", "bad.toml:4:8: `name` is \"EXQ\", which is no error",
        "\"EXB\", of an axis that the machine has not", "needs `value_deg`",
        "has no key `value`, did you mean", "must be 0: Y0X has no effect", "must ascend",
@@ -268,21 +279,23 @@ TEST_F(MachineCommand, RefusesErrorsWithAllThatIsWrong) {
   file("two.toml",
        "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n[[error]]\n"
        "name = \"EYX\"\nvalue_um = 1\n");
-  expect_all("pose m.toml q.csv --errors one.toml two.toml", {"they come from one file"});
+  expect_all("machine pose --machine m.toml q.csv --errors one.toml two.toml",
+             {"they come from one file"});
 }
 
 TEST_F(MachineCommand, RefusesPositionsWithAllThatIsWrong) {
   file("m.toml", minimal);
   file("q.csv", "X[mm],Y,Z[deg],A[deg],A[deg],B[deg]\n0,0,0,0,0\n0,0,0,0,nan,0\n");
-  expect_all("pose m.toml q.csv",
+  expect_all("machine pose --machine m.toml q.csv",
              {"q.csv:1: \"Y\" needs its unit: write Y[mm]", "\"Z[deg]\" needs its unit",
               "\"A[deg]\" is there twice", "\"B[deg]\" is no axis", "has no column C[deg]",
               "q.csv:2: has 5 numbers, the header 6 columns", "q.csv:3: \"nan\""});
   file("cl.csv", "x,y,z,i,j\n0,0,0,0,0\n");
-  expect_all("axes m.toml cl.csv", {"has no column k"});
+  expect_all("machine inverse --machine m.toml cl.csv", {"has no column k"});
   file("cl0.csv", "x,y,z,i,j,k\n0,0,0,0,0,0\n");
-  expect_all("axes m.toml cl0.csv", {"cl0.csv:2: has a direction i,j,k of no length"});
-  EXPECT_EQ(command("errors m.toml --at Q=5").exit_code, 2);
+  expect_all("machine inverse --machine m.toml cl0.csv",
+             {"cl0.csv:2: has a direction i,j,k of no length"});
+  EXPECT_EQ(command("machine errors --machine m.toml --at Q=5").exit_code, 2);
 }
 
 }  // namespace

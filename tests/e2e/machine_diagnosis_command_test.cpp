@@ -20,8 +20,8 @@ const std::string machine = data + "trunnion_ac.toml", ball = data + "trunnion_a
 json diagnosed(const std::string& more = "") {
   const auto folder = fresh_folder("machine_diagnosis");
   const std::string out = (folder / "diagnosis.json").string();
-  const auto ran =
-      trueaxis_command("diagnose " + ball + " --machine " + machine + " --json " + out + more);
+  const auto ran = trueaxis_command("machine diagnose " + ball + " --machine " + machine +
+                                    " --json " + out + more);
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   return read_json(out);
 }
@@ -144,7 +144,7 @@ TEST(MachineDiagnosisCommand, WritesThePositionsOfTheNextMeasurement) {
   const std::string table = text.substr(text.find("setup,ball"));
   EXPECT_EQ(std::ranges::count(table, ','), (rows + 1) * 10);  // eleven columns
   EXPECT_GT(lines, rows);
-  ran = trueaxis_command("diagnose " + plan + " --machine " + machine);
+  ran = trueaxis_command("machine diagnose " + plan + " --machine " + machine);
   EXPECT_EQ(ran.exit_code, 3);
   EXPECT_NE(ran.output.find("dX is empty"), std::string::npos) << ran.output;
   // Three readings a row, of a wavy pattern: any numbers will do.
@@ -162,7 +162,8 @@ TEST(MachineDiagnosisCommand, WritesThePositionsOfTheNextMeasurement) {
   }
   EXPECT_EQ(row, rows);
   write_text(folder / "filled.csv", filled);
-  ran = trueaxis_command("diagnose " + (folder / "filled.csv").string() + " --machine " + machine);
+  ran = trueaxis_command("machine diagnose " + (folder / "filled.csv").string() + " --machine " +
+                         machine);
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   ran = trueaxis_command("advise " + ball + " --machine " + machine + " -o " + ball);
   EXPECT_EQ(ran.exit_code, 3) << ran.output;  // never over what is read
@@ -176,8 +177,8 @@ TEST(MachineDiagnosisCommand, RefusesAProgramThatMovesNothing) {
   for (const char* name : {"empty.nc", "words.nc"}) {
     const std::string program = (folder / name).string();
     for (const std::string& command :
-         {"diagnose " + ball + " --machine " + machine + " --program " + program,
-          "compensate " + program + " --machine " + machine + " --errors " + data +
+         {"machine diagnose " + ball + " --machine " + machine + " --program " + program,
+          "machine compensate " + program + " --machine " + machine + " --errors " + data +
               "trunnion_ac_errors.toml -o " + (folder / "out.nc").string()}) {
       const auto ran = trueaxis_command(command);
       EXPECT_EQ(ran.exit_code, 3) << command << ran.output;
@@ -192,8 +193,8 @@ TEST(MachineDiagnosisCommand, RefusesWhatIsOfTheOther) {
   EXPECT_EQ(trueaxis_command("advise " + ball + " --surface cone --machine " + machine).exit_code,
             2);
   EXPECT_EQ(trueaxis_command("diagnose " + ball + " --surface cone --program p.nc").exit_code, 2);
-  const auto ran =
-      trueaxis_command("diagnose " + ball + " --machine " + machine + " --program " + machine);
+  const auto ran = trueaxis_command("machine diagnose " + ball + " --machine " + machine +
+                                    " --program " + machine);
   EXPECT_EQ(ran.exit_code, 3);
   EXPECT_NE(ran.output.find("trunnion_ac.toml:2:"), std::string::npos) << ran.output;
 }
@@ -205,7 +206,7 @@ TEST(MachineDiagnosisCommand, RefusesWhatCannotBeRight) {
   for (std::size_t at; (at = text.find("[um]")) != std::string::npos;) text.replace(at, 4, "[mm]");
   write_text(folder / "ball.csv", text);
   const std::string at = folder.string();
-  const auto ran = trueaxis_command("diagnose " + at + "/ball.csv --machine " + machine +
+  const auto ran = trueaxis_command("machine diagnose " + at + "/ball.csv --machine " + machine +
                                     " --json " + at + "/out.json -o " + at + "/errors.toml");
   EXPECT_EQ(ran.exit_code, 1) << ran.output;
   EXPECT_NE(ran.output.find("write [um] behind their names"), std::string::npos) << ran.output;
@@ -218,7 +219,8 @@ TEST(MachineDiagnosisCommand, RefusesWhatCannotBeRight) {
 TEST(MachineDiagnosisCommand, WritesAPage) {
   const auto folder = fresh_folder("machine_diagnosis_page");
   const std::string page = (folder / "d.html").string(), json_file = (folder / "d.json").string();
-  const std::string zxacy = "diagnose " + data + "zxacy_ball.csv --machine " + data + "zxacy.toml";
+  const std::string zxacy =
+      "machine diagnose " + data + "zxacy_ball.csv --machine " + data + "zxacy.toml";
   for (const std::string& program : {std::string(), " --program " + data + "blade.nc"}) {
     const auto ran = trueaxis_command(zxacy + program + " --report " + page + " --json " +
                                       json_file + " --force");

@@ -74,7 +74,8 @@ TEST_F(MachineJobCommand, TheBladeIsTruerByTheMachineThatWasHidden) {
   const nlohmann::json findings = result("out/diagnosis.json").at("findings");
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].at("effect"), "EXC.harmonic2");
-  const std::string pose = "pose " + of_data("zxacy.toml") + " p.csv --errors out/errors.toml";
+  const std::string pose =
+      "machine pose --machine " + of_data("zxacy.toml") + " p.csv --errors out/errors.toml";
   file("p.csv", positions_csv({source[0]}));
   EXPECT_EQ(command(pose).exit_code, 0);
 }
@@ -122,7 +123,7 @@ TEST_F(MachineJobCommand, WithoutAProgramItEndsWithTheErrors) {
   EXPECT_EQ(done.out.rfind("DONE: errors of the machine identified", 0), 0U) << done.out;
   EXPECT_EQ(files_in(folder_ / "out"), (std::vector<std::string>{"diagnosis.json", "errors.toml",
                                                                  "report.html", "result.json"}));
-  const std::string diagnose = "diagnose " + of_data("zxacy_ball.csv") + " --machine " +
+  const std::string diagnose = "machine diagnose " + of_data("zxacy_ball.csv") + " --machine " +
                                of_data("zxacy.toml") + " --json d.json";
   ASSERT_EQ(command(diagnose).exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "d.json"), read_text(folder_ / "out/diagnosis.json"));
@@ -133,7 +134,7 @@ TEST_F(MachineJobCommand, TheProgramIsThatOfCompensate) {
   job("tolerance_um = 10\ndecimals = 5\nmethod = \"differential\"");
   ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
   const std::string compensate =
-      "compensate " + of_data("blade.nc") + " --machine " + of_data("zxacy.toml") +
+      "machine compensate " + of_data("blade.nc") + " --machine " + of_data("zxacy.toml") +
       " --errors out/errors.toml -o cut.nc --method differential --tolerance-um 10 --decimals 5";
   ASSERT_EQ(command(compensate).exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "cut.nc"), read_text(folder_ / "out/blade_compensated.nc"));
@@ -176,7 +177,8 @@ TEST_F(MachineJobCommand, KnownErrorsAreKeptAndTheirUCounts) {
 }
 
 TEST_F(MachineJobCommand, TheShippedMeasurementIsThatOfItsScenario) {
-  ASSERT_EQ(command("simulate " + of_data("zxacy_ball.toml") + " -o ball.csv").exit_code, 0);
+  ASSERT_EQ(command("machine simulate " + of_data("zxacy_ball.toml") + " -o ball.csv").exit_code,
+            0);
   EXPECT_EQ(read_text(folder_ / "ball.csv"), read_text(of_data("zxacy_ball.csv")));
 }
 

@@ -16,8 +16,10 @@ class MeasurementMistakes : public CommandTest {
  protected:
   void SetUp() override {
     CommandTest::SetUp();
-    ASSERT_EQ(command("simulate " + data_ + "ball.toml -o ball.csv").exit_code, 0);
-    ASSERT_EQ(command("calibrate " + machine_ + " ball.csv -o right.toml").exit_code, 0);
+    ASSERT_EQ(command("machine simulate " + data_ + "ball.toml -o ball.csv").exit_code, 0);
+    ASSERT_EQ(
+        command("machine calibrate --machine " + machine_ + " ball.csv -o right.toml").exit_code,
+        0);
   }
 
   /// ball.csv with its header and every row changed.
@@ -71,8 +73,9 @@ class MeasurementMistakes : public CommandTest {
   /// Refused with all of these words and nothing written, by both commands.
   void expect_refused(std::initializer_list<const char*> words) {
     for (const std::string& call :
-         {"calibrate " + machine_ + " wrong.csv -o wrong.toml --json wrong.json",
-          "diagnose wrong.csv --machine " + machine_ + " -o wrong.toml --json wrong.json"}) {
+         {"machine calibrate --machine " + machine_ + " wrong.csv -o wrong.toml --json wrong.json",
+          "machine diagnose wrong.csv --machine " + machine_ +
+              " -o wrong.toml --json wrong.json"}) {
       const CommandStreams done = command(call);
       EXPECT_EQ(done.exit_code, 1) << call << done.err;
       for (const char* word : words)
@@ -121,7 +124,8 @@ TEST_F(MeasurementMistakes, UnitsOfTheDeviationsOfAProbe) {
     };
   };
   rows(off(1.0));
-  EXPECT_EQ(command("calibrate " + machine_ + " wrong.csv -o off.toml").exit_code, 0);
+  EXPECT_EQ(command("machine calibrate --machine " + machine_ + " wrong.csv -o off.toml").exit_code,
+            0);
   rows(off(1e-3));
   expect_refused({"the deviations are in mm and the header says um", "write [mm]"});
   write(replaced("dX[um],dY[um],dZ[um]", "dX[mm],dY[mm],dZ[mm]"), off(1.0));
@@ -141,7 +145,8 @@ TEST_F(MeasurementMistakes, RandomNumbers) {
 TEST_F(MeasurementMistakes, ReadOutsInTwoUnits) {
   const auto refused = [&](const std::string& text, const char* words) {
     file("axis.csv", text);
-    const CommandStreams done = command("calibrate " + machine_ + " axis.csv -o wrong.toml");
+    const CommandStreams done =
+        command("machine calibrate --machine " + machine_ + " axis.csv -o wrong.toml");
     EXPECT_EQ(done.exit_code, 1) << text;
     EXPECT_TRUE(contains(done.err, words)) << done.err;
     EXPECT_FALSE(there("wrong.toml"));
@@ -186,7 +191,8 @@ TEST_F(MeasurementMistakes, SignsAndColumns) {
 // Where the axes stand off the ball by more than its errors, as a probe leaves them, they do not.
 TEST_F(MeasurementMistakes, AllSigns) {
   rows(scaled({"dX", "dY", "dZ"}, -1.0));
-  EXPECT_EQ(command("calibrate " + machine_ + " wrong.csv -o wrong.toml").exit_code, 0);
+  EXPECT_EQ(
+      command("machine calibrate --machine " + machine_ + " wrong.csv -o wrong.toml").exit_code, 0);
   std::filesystem::remove(folder_ / "wrong.toml");
   int count = 0;
   rows([&](Fields& at) {
@@ -203,7 +209,8 @@ TEST_F(MeasurementMistakes, AllSigns) {
       at[deviations[k]] = number;
     }
   });
-  ASSERT_EQ(command("calibrate " + machine_ + " wrong.csv -o off.toml").exit_code, 0);
+  ASSERT_EQ(command("machine calibrate --machine " + machine_ + " wrong.csv -o off.toml").exit_code,
+            0);
   std::filesystem::rename(folder_ / "wrong.csv", folder_ / "ball.csv");
   rows(scaled({"dX", "dY", "dZ"}, -1.0));
   expect_refused({"dX, dY and dZ have the wrong sign", "turn their signs"});

@@ -74,7 +74,7 @@ TEST_F(NotDetermined, ShortArc) {
 TEST_F(NotDetermined, NoCorrectionFromIt) {
   open_fit(csv(probe({.noise_mm = 0.002})), "cone");
   file("job.toml", simple_job("stream = \"open.csv\"\nsurface = \"cone\"\nname = \"seat\"\n"));
-  expect_input_error("correct fit.json --target job.toml -o table.csv", "rank_deficient");
+  expect_input_error("table fit.json --target job.toml -o table.csv", "rank_deficient");
   std::filesystem::create_directories(folder_ / "out");
   file("out/table.csv", earlier_table);
   const CommandStreams done = command("run job.toml -o out");

@@ -13,7 +13,7 @@ class PaperTables : public CommandTest {
  protected:
   nlohmann::json published(const std::string& table) {
     const CommandStreams done =
-        command("sweep '" + places::source() + "/data/sweeps/" + table + ".toml' -o out");
+        command("study sweep '" + places::source() + "/data/sweeps/" + table + ".toml' -o out");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     printed_ = done.out;
     return result("out/published.json");
@@ -88,15 +88,16 @@ TEST_F(PaperTables, AreTheSameBytesOnAnyNumberOfThreads) {
   ASSERT_NE(sweep.find(repeats), std::string::npos);
   file("sweep.toml", sweep.replace(sweep.find(repeats), repeats.size(), "repeats = 300"));
   for (const std::string threads : {"1", "3"})
-    ASSERT_EQ(command("sweep sweep.toml --threads " + threads + " -o t" + threads).exit_code, 0);
+    ASSERT_EQ(command("study sweep sweep.toml --threads " + threads + " -o t" + threads).exit_code,
+              0);
   for (const char* name : {"published.json", "report.html"})
     EXPECT_EQ(read_text(folder_ / "t1" / name), read_text(folder_ / "t3" / name)) << name;
 }
 
 TEST_F(PaperTables, CylinderAndPlaneReachTheBound) {
   for (const char* table : {"table1_cylinder", "table1_plane"}) {
-    const CommandStreams done =
-        command(std::string("sweep '" + places::source() + "/data/sweeps/") + table + ".toml'");
+    const CommandStreams done = command(
+        std::string("study sweep '" + places::source() + "/data/sweeps/") + table + ".toml'");
     ASSERT_EQ(done.exit_code, 0) << done.err;
     const bool cylinder = std::string(table) == "table1_cylinder";
     EXPECT_TRUE(contains(done.out, cylinder ? "45 of 45 ratios" : "15 of 15 ratios")) << done.out;

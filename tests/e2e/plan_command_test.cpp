@@ -28,7 +28,8 @@ const char* const moved =
 TEST_F(PlanCommand, AnswersAndConfirms) {
   file("seat.toml", scenario);
   const CommandStreams done = command(
-      "plan seat.toml --goal-um 0.6 --free readings_per_revolution=4:64 --free sigma_um=0.5:5 "
+      "study plan seat.toml --goal-um 0.6 --free readings_per_revolution=4:64 --free "
+      "sigma_um=0.5:5 "
       "--repeats 200 --seed 7 --json plan.json");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json plan = result("plan.json");
@@ -52,7 +53,7 @@ TEST_F(PlanCommand, AnswersAndConfirms) {
 TEST_F(PlanCommand, SameSeedSameBytesOnAnyThreads) {
   file("seat.toml", scenario);
   const std::string ask =
-      "plan seat.toml --goal-um 0.8 --free length_mm=20:80 --repeats 300 --seed 3 --json ";
+      "study plan seat.toml --goal-um 0.8 --free length_mm=20:80 --repeats 300 --seed 3 --json ";
   ASSERT_EQ(command(ask + "one.json --threads 1").exit_code, 0);
   ASSERT_EQ(command(ask + "two.json --threads 2").exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "one.json"), read_text(folder_ / "two.json"));
@@ -63,7 +64,7 @@ TEST_F(PlanCommand, SameSeedSameBytesOnAnyThreads) {
 TEST_F(PlanCommand, SearchesOnAnyThreadsGiveTheSameBytes) {
   file("seat.toml", scenario);
   const std::string ask =
-      "plan seat.toml --goal-um 0.1 --free length_mm=20:80 --free sigma_um=0.5:5 "
+      "study plan seat.toml --goal-um 0.1 --free length_mm=20:80 --free sigma_um=0.5:5 "
       "--free feed_mm_per_rev=0.1:2 --free readings_per_revolution=4:60 --time-s 30 "
       "--repeats 100 --seed 3 --json ";
   ASSERT_EQ(command(ask + "one.json --threads 1").exit_code, 0);
@@ -79,14 +80,15 @@ TEST_F(PlanCommand, SearchesOnAnyThreadsGiveTheSameBytes) {
 
 TEST_F(PlanCommand, SaysWhatForbidsAPlan) {
   file("seat.toml", scenario);
-  const CommandStreams fast = command("plan seat.toml --goal-um 5 --rate-hz 5 --json fast.json");
+  const CommandStreams fast =
+      command("study plan seat.toml --goal-um 5 --rate-hz 5 --json fast.json");
   EXPECT_EQ(fast.exit_code, 1) << fast.err;
   EXPECT_TRUE(contains(fast.out, "too fast for the probe")) << fast.out;
   EXPECT_TRUE(result("fast.json").at("recommended").empty());
-  const CommandStreams late = command("plan seat.toml --goal-um 5 --time-s 20");
+  const CommandStreams late = command("study plan seat.toml --goal-um 5 --time-s 20");
   EXPECT_EQ(late.exit_code, 1) << late.err;
   EXPECT_TRUE(contains(late.out, "takes too long")) << late.out;
-  const CommandStreams bare = command("plan seat.toml --goal-um 0.1");
+  const CommandStreams bare = command("study plan seat.toml --goal-um 0.1");
   EXPECT_EQ(bare.exit_code, 1) << bare.err;
   EXPECT_TRUE(contains(bare.out, "--free")) << bare.out;
 }
@@ -98,7 +100,7 @@ TEST_F(PlanCommand, AGoalThatTheFitMissesIsNotConfirmed) {
                  "sigma_um = 3\noutlier_fraction = 0.05\noutlier_size_um = 100");
   file("spoilt.toml", spoilt);
   const CommandStreams done =
-      command("plan spoilt.toml --goal-um 1 --repeats 200 --seed 5 --json spoilt.json");
+      command("study plan spoilt.toml --goal-um 1 --repeats 200 --seed 5 --json spoilt.json");
   EXPECT_EQ(done.exit_code, 1) << done.err;
   const nlohmann::json plan = result("spoilt.json");
   EXPECT_EQ(plan.at("status"), "not_confirmed") << "seed 5";
@@ -115,7 +117,8 @@ TEST_F(PlanCommand, SaysWhichBoundAFitThatWastesNeeds) {
   tails.replace(tails.find("sigma_um = 3"), 12, "sigma_um = 3\nstudent_dof = 4");
   file("tails.toml", tails);
   // As it is 2 × 3 √(0.7 × 8/413) = 0.70 µm by the bound, 0.84 of least squares.
-  const CommandStreams done = command("plan tails.toml --goal-um 0.72 --repeats 2000 --seed 11");
+  const CommandStreams done =
+      command("study plan tails.toml --goal-um 0.72 --repeats 2000 --seed 11");
   EXPECT_EQ(done.exit_code, 1) << done.err;
   const std::size_t at = done.out.find("ask for a bound of ");
   ASSERT_NE(at, std::string::npos) << done.out;
@@ -126,7 +129,8 @@ TEST_F(PlanCommand, SaysWhichBoundAFitThatWastesNeeds) {
 // hardly moves. U as it is: 2 × 3 √(8/413) = 0.84 µm by the bound, 1.8 µm as the fits state.
 TEST_F(PlanCommand, DoesNotRecommendWhereTheFitsStateMoreThanTheGoal) {
   const std::string lobes = "[[effect]]\nid = \"part.roundness\"\norder = 3\namplitude_um = 8\n";
-  const std::string ask = "plan seat.toml --goal-um 1 --repeats 200 --seed 5 --json plan.json";
+  const std::string ask =
+      "study plan seat.toml --goal-um 1 --repeats 200 --seed 5 --json plan.json";
   const std::string words = "the U that the fits state";
   file("seat.toml", scenario);
   EXPECT_FALSE(contains(command(ask).out, words));
@@ -156,14 +160,15 @@ TEST_F(PlanCommand, CorrelatedNoiseIsSaidToBePerReading) {
   std::string slow = scenario;
   slow.replace(slow.find("sigma_um = 3"), 12, "sigma_um = 3\nrho = 0.5");
   file("slow.toml", slow);
-  const std::string ask = "plan slow.toml --goal-um 3 --repeats 100 --free ";
+  const std::string ask = "study plan slow.toml --goal-um 3 --repeats 100 --free ";
   EXPECT_TRUE(contains(command(ask + "readings_per_revolution=4:20").out, "lasts a time"));
   EXPECT_FALSE(contains(command(ask + "length_mm=20:60").out, "lasts a time"));
 }
 
 TEST_F(PlanCommand, RefusesAndSaysHowNearItComes) {
   const CommandStreams done = command(
-      "plan --surface cylinder --sigma-um 3 --goal-um 0.05 --free readings_per_revolution=4:20 "
+      "study plan --surface cylinder --sigma-um 3 --goal-um 0.05 --free "
+      "readings_per_revolution=4:20 "
       "--time-s 30 --json -");
   EXPECT_EQ(done.exit_code, 1) << done.err;
   const nlohmann::json plan = nlohmann::json::parse(done.out);
@@ -176,21 +181,21 @@ TEST_F(PlanCommand, SaysWhatAPlanCannotShow) {
   file("dwell.toml",
        "[part]\nkind = \"cylinder\"\nradius_mm = 30\n[noise]\nsigma_um = 3\n[[pass]]\n"
        "z_start_mm = 0\nz_end_mm = 0\nrevolutions = 20\nreadings_per_revolution = 10\n");
-  const CommandStreams dwell = command("plan dwell.toml --free sigma_um=1:30");
+  const CommandStreams dwell = command("study plan dwell.toml --free sigma_um=1:30");
   EXPECT_EQ(dwell.exit_code, 1) << dwell.err;
   EXPECT_TRUE(contains(dwell.out, "no plan of the ranges determines the axis")) << dwell.out;
   file("cone.toml",
        "[part]\nkind = \"cone\"\nk_mm = 102\nhalf_angle_deg = 25\n[noise]\nsigma_um = 3\n"
        "[[pass]]\nz_start_mm = 0\nz_end_mm = 60\nfeed_mm_per_rev = 1\n"
        "readings_per_revolution = 10\n");
-  expect_input_error("plan cone.toml --free length_mm=20:300", "at the longest length");
+  expect_input_error("study plan cone.toml --free length_mm=20:300", "at the longest length");
 }
 
 TEST_F(PlanCommand, WrongRangesAreUsageAndWrongPlansAreInput) {
-  EXPECT_EQ(command("plan --free colour=1:2").exit_code, 2);
-  EXPECT_EQ(command("plan --free sigma_um=1").exit_code, 2);
+  EXPECT_EQ(command("study plan --free colour=1:2").exit_code, 2);
+  EXPECT_EQ(command("study plan --free sigma_um=1").exit_code, 2);
   const auto expect_usage = [&](const std::string& options, const std::string& why) {
-    const CommandStreams done = command("plan " + options);
+    const CommandStreams done = command("study plan " + options);
     EXPECT_EQ(done.exit_code, 2) << options;
     EXPECT_TRUE(contains(done.err, why)) << options << '\n' << done.err;
     EXPECT_LT(done.err.size(), 300U) << done.err;
@@ -202,14 +207,14 @@ TEST_F(PlanCommand, WrongRangesAreUsageAndWrongPlansAreInput) {
   expect_usage("--free length_mm=nan:20", "must be finite");
   expect_usage("--free length_mm=10:20 --free length_um=10:20", "has a range already");
   file("seat.toml", scenario);
-  EXPECT_EQ(command("plan seat.toml --surface cone").exit_code, 2);
+  EXPECT_EQ(command("study plan seat.toml --surface cone").exit_code, 2);
   expect_usage("seat.toml --free sigma_um=5:0.5", "LOW is more than HIGH");
-  expect_input_error("plan missing.toml", "missing.toml");
+  expect_input_error("study plan missing.toml", "missing.toml");
 }
 
 TEST_F(AxisBiasCommand, WritesEveryEffectWithLatheAndPrediction) {
   file("seat.toml", scenario);
-  const CommandStreams done = command("axis-bias seat.toml -o axis_bias");
+  const CommandStreams done = command("study axis-bias seat.toml -o axis_bias");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json axis_bias = result("axis_bias/axis_bias.json");
   EXPECT_EQ(axis_bias.at("schema"), "trueaxis.axis_bias/2");
@@ -234,7 +239,7 @@ TEST_F(AxisBiasCommand, OfAFaceItIsTheTilt) {
   file("face.toml",
        "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 20\nx_end_mm = 40\n"
        "feed_mm_per_rev = 1\nreadings_per_revolution = 10.3\n");
-  const CommandStreams done = command("axis-bias face.toml");
+  const CommandStreams done = command("study axis-bias face.toml");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_TRUE(contains(done.out, "part.face_saddle")) << done.out;
 }
@@ -242,8 +247,8 @@ TEST_F(AxisBiasCommand, OfAFaceItIsTheTilt) {
 TEST_F(AxisBiasCommand, AnAxisThatMovesWithinAClampingIsRefusedAsByAPlan) {
   file("moved.toml", moved);
   const std::string why = "the axis moves between set-ups of one clamping: say in the set-up";
-  expect_input_error("plan moved.toml", why);
-  expect_input_error("axis-bias moved.toml", why);
+  expect_input_error("study plan moved.toml", why);
+  expect_input_error("study axis-bias moved.toml", why);
 }
 
 }  // namespace

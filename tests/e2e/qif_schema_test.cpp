@@ -64,7 +64,7 @@ TEST_F(QifSchema, AnAssociationThroughPointsIsValid) {
   file.close();
   for (const char* element : {"circle", "cylinder", "sphere", "plane"}) {
     const CommandStreams done =
-        command(std::string("associate points.xyz --force --qif a.qif --element ") + element);
+        command(std::string("fit --points points.xyz --force --qif a.qif --element ") + element);
     if (done.exit_code != 0) continue;  // a sphere of a ring is refused
     EXPECT_EQ(said_of("a.qif"), "") << element;
   }

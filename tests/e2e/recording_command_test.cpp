@@ -137,11 +137,11 @@ TEST_F(RecordingCommand, TheCommandThatWasTypedIsProposedAndRuns) {
     text += line;
   }
   file("my part's.csv", text);
-  const std::string typed = "fit \"my part's.csv\" --surface cylinder --noise 0.2 --json r.json";
+  const std::string typed = "fit \"my part's.csv\" --surface cylinder --noise-um 0.2 --json r.json";
   const CommandStreams asked = command(typed);
   ASSERT_EQ(asked.exit_code, 3);
   EXPECT_TRUE(contains(asked.err,
-                       "trueaxis fit 'my part'\\''s.csv' --surface cylinder --noise 0.2 "
+                       "trueaxis fit 'my part'\\''s.csv' --surface cylinder --noise-um 0.2 "
                        "--json r.json --columns X=2,C=1,Z=3 --diameter (or --radius)"))
       << asked.err;
   std::string proposed = command_in(asked.err);

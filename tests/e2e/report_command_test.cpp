@@ -95,8 +95,8 @@ TEST_F(ReportCommand, WhatIsNotDeterminedHasAPageToo) {
 
 // A machine's residuals have no file; its page is tested beside its diagnosis.
 TEST_F(ReportCommand, OfAMachineThatIsNotReadThereIsNone) {
-  EXPECT_EQ(command("diagnose ball.csv --machine m.toml --report page.html").exit_code, 3);
-  EXPECT_EQ(command("diagnose ball.csv --machine m.toml --residuals r.csv").exit_code, 2);
+  EXPECT_EQ(command("machine diagnose ball.csv --machine m.toml --report page.html").exit_code, 3);
+  EXPECT_EQ(command("machine diagnose ball.csv --machine m.toml --residuals r.csv").exit_code, 2);
   EXPECT_FALSE(there("page.html"));
 }
 

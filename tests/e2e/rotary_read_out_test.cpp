@@ -35,7 +35,7 @@ class RotaryReadOut : public CommandTest {
     file("c.csv", text);
   }
   CommandStreams calibrate() {
-    return command("calibrate m.toml c.csv -o e.toml --json r.json --force");
+    return command("machine calibrate --machine m.toml c.csv -o e.toml --json r.json --force");
   }
   double error_urad(double at_deg, const char* name = "ECC") {
     const Machine machine = read_machine_toml((folder_ / "m.toml").string()).machine;
@@ -103,17 +103,18 @@ TEST_F(RotaryReadOut, APartOfATurnIsNotExtrapolated) {
   const double sign = error_urad(20.0, "EBB") < 0.0 ? -1.0 : 1.0;
   EXPECT_NEAR(sign * (error_urad(25.0, "EBB") - error_urad(0.0, "EBB")), 0.02 * 625 + 25, 0.01);
   file("in.nc", "G0 X0 Y0 Z0 B25 C10\nG1 B-28 C40 F500\n");
-  EXPECT_EQ(command("compensate in.nc --machine m.toml --errors e.toml -o o.nc --tolerance-um 50")
-                .exit_code,
-            0);
+  EXPECT_EQ(
+      command("machine compensate in.nc --machine m.toml --errors e.toml -o o.nc --tolerance-um 50")
+          .exit_code,
+      0);
   file("out.nc", "G0 X0 Y0 Z0 B25 C10\nG1 B-80 F500\n");
   const CommandStreams done =
-      command("compensate out.nc --machine m.toml --errors e.toml -o o2.nc");
+      command("machine compensate out.nc --machine m.toml --errors e.toml -o o2.nc");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_TRUE(contains(done.err, "B at -80 deg is beyond -30 to 30")) << done.err;
   EXPECT_FALSE(there("o2.nc"));
   file("q.csv", "X[mm],Y[mm],Z[mm],B[deg],C[deg]\n0,0,0,-80,0\n");
-  EXPECT_EQ(command("pose m.toml q.csv --errors e.toml").exit_code, 1);
+  EXPECT_EQ(command("machine pose --machine m.toml q.csv --errors e.toml").exit_code, 1);
 }
 
 // A real encoder: one turn of a screw as a rotary axis (1 mm is 360°), against Fourier sums over

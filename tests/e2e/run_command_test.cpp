@@ -173,19 +173,18 @@ class CorrectCommand : public CommandTest {
 
 TEST_F(CorrectCommand, PreviewWritesNothing) {
   const auto before = files_in(folder_);
-  const CommandStreams done = command("correct fit.json --ideal --target job.toml --preview");
+  const CommandStreams done = command("table fit.json --ideal --target job.toml --preview");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_TRUE(contains(done.out, "harmonics"));
   EXPECT_EQ(files_in(folder_), before);
 }
 
 TEST_F(CorrectCommand, AFitHasItsDiagnosisBesideItOrSaysThatItHasNone) {
-  const std::string table = command("correct d.json --target job.toml -o -").out;
+  const std::string table = command("table d.json --target job.toml -o -").out;
   ASSERT_FALSE(table.empty());
-  const CommandStreams beside =
-      command("correct fit.json --diagnosis d.json --target job.toml -o -");
+  const CommandStreams beside = command("table fit.json --diagnosis d.json --target job.toml -o -");
   EXPECT_EQ(beside.out, table) << beside.err;
-  const CommandStreams ideal = command("correct fit.json --ideal --target job.toml -o -");
+  const CommandStreams ideal = command("table fit.json --ideal --target job.toml -o -");
   // Nothing was found: the axis is that of the ideal surface, its u without what the passes do not
   // show.
   const auto without_u = [](std::string text) {
@@ -194,7 +193,7 @@ TEST_F(CorrectCommand, AFitHasItsDiagnosisBesideItOrSaysThatItHasNone) {
   };
   EXPECT_EQ(without_u(ideal.out), without_u(table));
   EXPECT_TRUE(contains(ideal.err, "rests on the ideal surface alone")) << ideal.err;
-  const CommandStreams bare = command("correct fit.json --target job.toml -o -");
+  const CommandStreams bare = command("table fit.json --target job.toml -o -");
   EXPECT_EQ(bare.exit_code, 1);
   EXPECT_EQ(bare.out, "");
   EXPECT_TRUE(contains(bare.err, "nobody looked for slips")) << bare.err;
@@ -203,12 +202,12 @@ TEST_F(CorrectCommand, AFitHasItsDiagnosisBesideItOrSaysThatItHasNone) {
 TEST_F(CorrectCommand, TableIsThatOfTheWholeJob) {
   ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
   std::filesystem::create_directories(folder_ / "a/b c");
-  ASSERT_EQ(command("correct d.json --target job.toml -o 'a/b c/table.csv'").exit_code, 0);
-  const CommandStreams printed = command("correct d.json --target job.toml -o -");
+  ASSERT_EQ(command("table d.json --target job.toml -o 'a/b c/table.csv'").exit_code, 0);
+  const CommandStreams printed = command("table d.json --target job.toml -o -");
   EXPECT_EQ(printed.exit_code, 0);
   EXPECT_EQ(printed.out, read_text(folder_ / "a/b c/table.csv"));
-  EXPECT_EQ(printed.out, command("correct - --target job.toml -o - < d.json").out);
-  EXPECT_EQ(printed.out, command("correct d.json --target - -o - < job.toml").out);
+  EXPECT_EQ(printed.out, command("table - --target job.toml -o - < d.json").out);
+  EXPECT_EQ(printed.out, command("table d.json --target - -o - < job.toml").out);
   // The job's target axis is taken at the middle of the cut: 1e-7 mm is the last digit of a row.
   std::istringstream one(rows_of(printed.out)),
       other(rows_of(read_text(folder_ / "out/table.csv")));
@@ -227,7 +226,7 @@ TEST_F(CorrectCommand, TableIsThatOfTheWholeJob) {
 TEST_F(CorrectCommand, RefusalNamesNumberAndSpeedAndLeavesNoTable) {
   file("fast.toml", simple_job(cylinder_reference, 60000));
   file("table.csv", earlier_table);
-  const CommandStreams done = command("correct d.json --target fast.toml -o table.csv");
+  const CommandStreams done = command("table d.json --target fast.toml -o table.csv");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_TRUE(contains(done.err, "refused: the actuator cannot follow: ")) << done.err;
   EXPECT_TRUE(contains(done.err, "slew")) << done.err;

@@ -36,18 +36,18 @@ class Screens : public CommandTest {
   }
   /// All commands whose screens are shipped cases, with what they write in the test's folder.
   std::vector<std::string> machine_commands() {
-    return {
-        "run " + of + "jobs/blade.toml -o blade",
-        "calibrate " + machines + "trunnion_ac.toml " + machines + "trunnion_ac_ball.csv -o c.toml",
-        "diagnose " + ball,
-        "diagnose " + ball + " --program " + machines + "blade.nc --json d.json",
-        "advise " + ball,
-        "advise --machine " + machines + "zxacy.toml",
-        "datum " + machines + "holes.toml -o e.toml",
-        "locate " + machines + "hong.toml",
-        "locate " + machines + "hong.toml -o l.toml --json l.json",
-        "compensate " + machines + "holes.nc --machine " + machines + "zxacy.toml --errors " +
-            machines + "zxacy_errors.toml -o holes.nc"};
+    return {"run " + of + "jobs/blade.toml -o blade",
+            "machine calibrate --machine " + machines + "trunnion_ac.toml " + machines +
+                "trunnion_ac_ball.csv -o c.toml",
+            "diagnose " + ball,
+            "diagnose " + ball + " --program " + machines + "blade.nc --json d.json",
+            "advise " + ball,
+            "advise --machine " + machines + "zxacy.toml",
+            "setup datums " + machines + "holes.toml -o e.toml",
+            "setup locators " + machines + "hong.toml",
+            "setup locators " + machines + "hong.toml -o l.toml --json l.json",
+            "machine compensate " + machines + "holes.nc --machine " + machines +
+                "zxacy.toml --errors " + machines + "zxacy_errors.toml -o holes.nc"};
   }
   std::vector<std::string> lathe_commands() {
     std::vector<std::string> all{"run " + of + "streams/shaft_three_lobes.csv -o alone"};

@@ -149,8 +149,8 @@ TEST_F(SimulateFrom, RefusesWhatDoesNotBelongTogether) {
   ASSERT_EQ(command("simulate another.toml -o another.csv").exit_code, 0);
   expect_input_error("simulate --from d.json --stream another.csv --compare",
                      "is the diagnosis of another stream");
-  expect_input_error("simulate --from d.json --diameter --compare", "correct one");
-  expect_input_error("simulate --from d.json --ball-radius 2 --compare", "--diameter");
+  expect_input_error("simulate --from d.json --diameter --compare", "table one");
+  expect_input_error("simulate --from d.json --ball-radius-mm 2 --compare", "--diameter");
   expect_input_error("simulate --from gone.json --compare", "gone.json: cannot be read");
   expect_input_error("simulate --from part.csv --compare", "trueaxis.diagnosis/2");
   file("empty.json", "{}");

@@ -137,7 +137,7 @@ TEST_F(SpindleCommand, AJobAndTwoStreamsSayTheSameAsOptions) {
   const CommandStreams of_job = command("spindle job.toml --json a.json");
   ASSERT_EQ(of_job.exit_code, 0) << of_job.err;
   const CommandStreams of_options = command(
-      "spindle s.csv z.csv --angles 0,55,113.2 --u-angle-deg 0.05 --orders 2-50 --json b.json");
+      "spindle s.csv z.csv --angles-deg 0,55,113.2 --u-angle-deg 0.05 --orders 2-50 --json b.json");
   ASSERT_EQ(of_options.exit_code, 0) << of_options.err;
   const nlohmann::json axial = result("a.json").at("axial");
   expect_within(axial.at("fundamental"), 0.8e-3, "fundamental axial");
@@ -175,7 +175,7 @@ TEST_F(SpindleCommand, SuppressedOrdersAreNamedWithTheirConditionNumber) {
 }
 
 TEST_F(SpindleCommand, AnglesAreProposedAndThoseGivenAreJudged) {
-  const CommandStreams done = command("spindle --advise --sensors 3 --angles 0,120,240");
+  const CommandStreams done = command("spindle --advise --sensors 3 --angles-deg 0,120,240");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_TRUE(contains(done.out, "no order of 2 to 100")) << done.out;
   EXPECT_TRUE(contains(done.out, "given     0, 120, 240 deg")) << done.out;

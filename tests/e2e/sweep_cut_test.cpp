@@ -25,7 +25,7 @@ class SweepCut : public CommandTest {
                    "\n[cut.actuator]\n"
                    "perfect = true\n" +
                    axes);
-    const CommandStreams done = command("sweep sweep.toml -o out");
+    const CommandStreams done = command("study sweep sweep.toml -o out");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     return result("out/sweep.json")["cells"];
   }
@@ -89,7 +89,7 @@ TEST_F(SweepCut, ANumberOfTheCutIsAnAxis) {
 
 TEST_F(SweepCut, TheShippedExampleRuns) {
   const CommandStreams done =
-      command("sweep '" + places::source() + "/data/sweeps/cut.toml' -o out");
+      command("study sweep '" + places::source() + "/data/sweeps/cut.toml' -o out");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(result("out/sweep.json")["cells"].size(), 8U);
   EXPECT_TRUE(contains(read_text(folder_ / "out/sweep.csv"), ",coaxiality,mm,0,"));

@@ -18,7 +18,7 @@ class SweepForm : public CommandTest {
             "[[pass]]\nz_start_mm = 0\nz_end_mm = 0.05\nfeed_mm_per_rev = 0.01\n"
             "readings_per_revolution = 106\n[[effect]]\nid = \"part.roundness\"\norder = 3\n"
             "amplitude_um = 0.5\n[[axis]]\nkey = \"noise.sigma_um\"\nvalues = [0.01, 0.4]\n");
-    const CommandStreams done = command("sweep sweep.toml -o out");
+    const CommandStreams done = command("study sweep sweep.toml -o out");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     return done.exit_code == 0 ? result("out/sweep.json")["cells"] : nlohmann::json();
   }

@@ -97,7 +97,7 @@ class SweepMpi : public CommandTest {
 };
 
 TEST_F(SweepMpi, RanksGiveTheBytesOfOneProcess) {
-  ASSERT_EQ(command("sweep sweep.toml -o one").exit_code, 0);
+  ASSERT_EQ(command("study sweep sweep.toml -o one").exit_code, 0);
   for (const int ranks : {1, 2, 3}) {
     const std::string out = "ranks" + std::to_string(ranks);
     ASSERT_EQ(wait_for(start(ranks, "sweep.toml", out)), 0) << text("said.txt");
@@ -109,7 +109,7 @@ TEST_F(SweepMpi, RanksGiveTheBytesOfOneProcess) {
 
 TEST_F(SweepMpi, EndsWhenARankDiesAndGoesOnFromThere) {
   file("long.toml", sweep_text(5000));
-  ASSERT_EQ(command("sweep long.toml -o whole").exit_code, 0);
+  ASSERT_EQ(command("study sweep long.toml -o whole").exit_code, 0);
   const std::uintmax_t all = fs::file_size(folder_ / "whole/journal.bin");
   std::uintmax_t wanted = all / 10;
   for (const int rank : {1, 0}) {

@@ -14,7 +14,7 @@ class SweepPlans : public CommandTest {
   void SetUp() override {
     CommandTest::SetUp();
     const CommandStreams done =
-        command("sweep '" + places::source() + "/data/sweeps/plans.toml' -o out");
+        command("study sweep '" + places::source() + "/data/sweeps/plans.toml' -o out");
     ASSERT_EQ(done.exit_code, 0) << done.err;
     json_ = result("out/sweep.json");
   }

@@ -13,7 +13,7 @@
 #include "support/command_fixture.hpp"
 #include "support/places.hpp"
 
-/// `trueaxis sweep` as a process: the same bytes whatever happens to it.
+/// `trueaxis study sweep` as a process: the same bytes whatever happens to it.
 namespace trueaxis::testing {
 namespace {
 
@@ -70,7 +70,8 @@ class SweepCommand : public CommandTest {
 TEST_F(SweepCommand, GivesTheSameBytesOnAnyNumberOfThreads) {
   for (const char* threads : {"1", "2", "3"})
     ASSERT_EQ(
-        command(std::string("sweep sweep.toml --threads ") + threads + " -o t" + threads).exit_code,
+        command(std::string("study sweep sweep.toml --threads ") + threads + " -o t" + threads)
+            .exit_code,
         0);
   expect_same_results("t1", "t2");
   expect_same_results("t1", "t3");
@@ -84,7 +85,7 @@ TEST_F(SweepCommand, GivesTheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST_F(SweepCommand, IsQuietInAPipe) {
-  const CommandStreams done = command("sweep sweep.toml -o out");
+  const CommandStreams done = command("study sweep sweep.toml -o out");
   EXPECT_EQ(done.exit_code, 0);
   EXPECT_EQ(done.err, "");
   EXPECT_TRUE(contains(done.out, "RMSE / bound"));
@@ -93,13 +94,13 @@ TEST_F(SweepCommand, IsQuietInAPipe) {
 // Killed again and again at other sizes of the journal, it ends with the bytes of one run.
 TEST_F(SweepCommand, ContinuesWhereItWasKilled) {
   file("long.toml", sweep_text(1500));
-  ASSERT_EQ(command("sweep long.toml -o whole").exit_code, 0);
+  ASSERT_EQ(command("study sweep long.toml -o whole").exit_code, 0);
   const std::uintmax_t all = fs::file_size(folder_ / "whole/journal.bin");
   for (const std::uintmax_t tenth : {1U, 4U, 7U}) kill_at("long.toml", "killed", tenth * all / 10);
   const std::uintmax_t before = fs::file_size(folder_ / "killed/journal.bin");
   EXPECT_GE(before, 7 * all / 10);
   ASSERT_FALSE(there("killed/sweep.csv")) << "the sweep was over before it was killed";
-  ASSERT_EQ(command("sweep long.toml -o killed").exit_code, 0);
+  ASSERT_EQ(command("study sweep long.toml -o killed").exit_code, 0);
   expect_same_results("whole", "killed");
   // No block was lost or run twice: every record is as long as in the other journal.
   EXPECT_EQ(fs::file_size(folder_ / "killed/journal.bin"), all);
@@ -107,7 +108,7 @@ TEST_F(SweepCommand, ContinuesWhereItWasKilled) {
 
 // The last record cut at every kind of place, and a byte of it changed.
 TEST_F(SweepCommand, TakesOffATornRecord) {
-  ASSERT_EQ(command("sweep sweep.toml --threads 1 -o whole").exit_code, 0);
+  ASSERT_EQ(command("study sweep sweep.toml --threads 1 -o whole").exit_code, 0);
   const std::string journal = text("whole/journal.bin");
   const std::size_t last = journal.rfind("TXBLOCK1");
   std::vector<std::string> torn;
@@ -122,33 +123,33 @@ TEST_F(SweepCommand, TakesOffATornRecord) {
     const std::string out = "torn" + std::to_string(number++);
     fs::create_directories(folder_ / out);
     file(out + "/journal.bin", bytes);
-    ASSERT_EQ(command("sweep sweep.toml -o " + out).exit_code, 0) << out;
+    ASSERT_EQ(command("study sweep sweep.toml -o " + out).exit_code, 0) << out;
     expect_same_results("whole", out);
   }
 }
 
 TEST_F(SweepCommand, RefusesTheJournalOfAnotherSweep) {
-  ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  ASSERT_EQ(command("study sweep sweep.toml -o out").exit_code, 0);
   file("sweep.toml", sweep_text(41));
-  expect_input_error("sweep sweep.toml -o out", "is of another sweep");
+  expect_input_error("study sweep sweep.toml -o out", "is of another sweep");
 }
 
 // The same version with another engine: one digit of the build's hash differs.
 TEST_F(SweepCommand, RefusesTheJournalOfAnotherBuild) {
-  ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  ASSERT_EQ(command("study sweep sweep.toml -o out").exit_code, 0);
   std::string journal = text("out/journal.bin");
   char& digit = journal.at(journal.find('\n') - 1);
   digit = digit == '0' ? '1' : '0';
   file("out/journal.bin", journal);
-  expect_input_error("sweep sweep.toml -o out", "was begun by another build of TrueAxis");
-  expect_input_error("sweep sweep.toml -o out", "choose another folder with -o");
+  expect_input_error("study sweep sweep.toml -o out", "was begun by another build of TrueAxis");
+  expect_input_error("study sweep sweep.toml -o out", "choose another folder with -o");
   EXPECT_EQ(text("out/journal.bin"), journal);
 }
 
 TEST_F(SweepCommand, RefusesAFolderInUse) {
   fs::create_directories(folder_ / "out");
   file("out/journal.bin", "");
-  const std::string locked = "sweep sweep.toml -o out";
+  const std::string locked = "study sweep sweep.toml -o out";
   const int status =
       std::system(("cd " + shell_word(folder_) + " && flock out/journal.bin " +
                    shell_word(places::command()) + " " + locked + " > /dev/null 2> locked.txt")
@@ -159,9 +160,9 @@ TEST_F(SweepCommand, RefusesAFolderInUse) {
 
 TEST_F(SweepCommand, SaysWhatIsWrongWithTheInput) {
   file("bad.toml", "scenario = \"none.toml\"\nrepeats = -1\n");
-  expect_input_error("sweep bad.toml -o out", "none.toml: cannot be read");
+  expect_input_error("study sweep bad.toml -o out", "none.toml: cannot be read");
   file("plain", "");
-  expect_input_error("sweep sweep.toml -o plain/out", "plain/out");
+  expect_input_error("study sweep sweep.toml -o plain/out", "plain/out");
   EXPECT_EQ(command("sweep").exit_code, 2);
 }
 
@@ -170,8 +171,8 @@ TEST_F(SweepCommand, KeepsGoingWhereACellCannotBeProbed) {
   std::string text = sweep_text(10);
   text += "[[axis]]\nkey = \"part.k_mm\"\nvalues = [-150, 15]\n";  // 15: the apex is in the way
   file("sweep.toml", text);
-  ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
-  EXPECT_TRUE(contains(command("sweep sweep.toml").out, "4 of 8 cells have no result: "));
+  ASSERT_EQ(command("study sweep sweep.toml -o out").exit_code, 0);
+  EXPECT_TRUE(contains(command("study sweep sweep.toml").out, "4 of 8 cells have no result: "));
   const nlohmann::json cells = result("out/sweep.json")["cells"];
   EXPECT_EQ(cells[0]["failures"], 0);
   EXPECT_EQ(cells[2]["failures"], 10);
@@ -183,7 +184,7 @@ TEST_F(SweepCommand, SaysWhyThereIsNoBound) {
   const auto expect_why = [&](const std::string& sweep, const std::string& why) {
     const std::string out = "out" + std::to_string(number++);
     file("sweep.toml", sweep);
-    const CommandStreams done = command("sweep sweep.toml -o " + out);
+    const CommandStreams done = command("study sweep sweep.toml -o " + out);
     ASSERT_EQ(done.exit_code, 0) << done.err;
     EXPECT_TRUE(contains(done.out, "no bound: " + why)) << done.out;
     EXPECT_EQ(result(out + "/sweep.json")["cells"][0]["why_no_bound"], why);
@@ -206,7 +207,7 @@ TEST_F(SweepCommand, StudiesADiagnosis) {
       sweep_text(3) + "[[effect]]\nid = \"part.roundness\"\norder = 3\namplitude_um = 8\n";
   text.replace(text.find("[\"fit\", \"tukey\"]"), 16, "[\"diagnosis\"]");
   file("sweep.toml", text);
-  ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  ASSERT_EQ(command("study sweep sweep.toml -o out").exit_code, 0);
   const nlohmann::json cells = result("out/sweep.json")["cells"];
   EXPECT_EQ(cells[0]["found"]["value"],
             1.0);  // 8 µm at σ = 2 µm over 1395 readings: λ of thousands
@@ -221,7 +222,7 @@ TEST_F(SweepCommand, NamesNothingWhereNothingIsHidden) {
                      "[[axis]]\nkey = \"effect.0.amplitude_um\"\nvalues = [0, 8]\n";
   text.replace(text.find("[\"fit\", \"tukey\"]"), 16, "[\"diagnosis\"]");
   file("sweep.toml", text);
-  ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  ASSERT_EQ(command("study sweep sweep.toml -o out").exit_code, 0);
   const nlohmann::json cells = result("out/sweep.json")["cells"];
   EXPECT_TRUE(cells[0]["named"]["value"].is_null()) << cells[0];
   EXPECT_FALSE(cells[0]["found"]["value"].is_null());

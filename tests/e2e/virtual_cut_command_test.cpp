@@ -10,8 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string cut_scenario = "simulate " + five_axis_data + "cut.toml ";
-const std::string to_compensate = "compensate " + five_axis_data + "example.nc " + of_trunnion;
+const std::string cut_scenario = "machine simulate " + five_axis_data + "cut.toml ";
+const std::string to_compensate =
+    "machine compensate " + five_axis_data + "example.nc " + of_trunnion;
 
 class VirtualCutCommand : public CommandTest {};
 
@@ -81,11 +82,11 @@ TEST_F(VirtualCutCommand, JudgesAProgramOfEverything) {
                        "trunnion_ac_errors.toml\"\n[cut]\nprogram = \"p.nc\"\nstep_mm = 0.1\n"
                        "step_deg = 0.1\n");
   const CommandStreams made =
-      command("compensate p.nc --machine m.toml --errors " + five_axis_data +
+      command("machine compensate p.nc --machine m.toml --errors " + five_axis_data +
               "trunnion_ac_errors.toml -o out.nc --tolerance-um 3 --json said.json");
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  ASSERT_EQ(command("simulate cut.toml --json before.json").exit_code, 0);
-  ASSERT_EQ(command("simulate cut.toml --program out.nc --json after.json").exit_code, 0);
+  ASSERT_EQ(command("machine simulate cut.toml --json before.json").exit_code, 0);
+  ASSERT_EQ(command("machine simulate cut.toml --program out.nc --json after.json").exit_code, 0);
   const auto said = result("said.json"), before = result("before.json"),
              after = result("after.json");
   EXPECT_EQ(after.at("block_ends"), 14);
@@ -114,11 +115,13 @@ TEST_F(VirtualCutCommand, RefusesWhatItCannotCut) {
   expect_input_error(cut_scenario + "--program other.nc -o other.nc --force", "is an input");
   expect_input_error(cut_scenario + "--truth t.json -o path.csv", "leave --truth");
   expect_input_error(cut_scenario + "--seed 3 -o path.csv", "has no noise");
-  expect_input_error("simulate " + five_axis_data + "ball.toml --program other.nc -o path.csv",
-                     "--program needs");
-  EXPECT_EQ(command("simulate " + five_axis_data + "ball.toml --json f.json -o path.csv").exit_code,
+  expect_input_error(
+      "machine simulate " + five_axis_data + "ball.toml --program other.nc -o path.csv",
+      "--program needs");
+  EXPECT_EQ(command("machine simulate " + five_axis_data + "ball.toml --json f.json -o path.csv")
+                .exit_code,
             2);
-  EXPECT_EQ(command("simulate " + five_axis_data + "ball.toml").exit_code, 2);
+  EXPECT_EQ(command("machine simulate " + five_axis_data + "ball.toml").exit_code, 2);
   EXPECT_EQ(command(cut_scenario + "--json f -o f").exit_code, 2);
 }
 

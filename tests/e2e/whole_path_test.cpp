@@ -28,8 +28,9 @@ class WholePath : public CommandTest {
     file("m.toml", bc_trunnion);
     file("e.toml", bc_errors(seed));
     file("p.nc", program);
-    return command("compensate p.nc --machine m.toml --errors e.toml -o out.nc --json r.json " +
-                   options + " --force");
+    return command(
+        "machine compensate p.nc --machine m.toml --errors e.toml -o out.nc --json r.json " +
+        options + " --force");
   }
 
   /// Block by block, of a program whose blocks stayed whole: every block is off by no more than it
@@ -124,7 +125,7 @@ TEST_F(WholePath, ArcsToo) {
       "G21 G90 G94 G54\nG0 X-40 Y-50 Z-5 B0 C0\nG1 X40 F500\nG3 X50 Y-40 I0 J10\nG1 Y40\n"
       "G3 X40 Y50 I-10 J0\nG1 X-40\nG2 X-40 Y50 I0 J-20\n";
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const CommandStreams done = compensate(corners, seed, "--arcs 0.001");
+    const CommandStreams done = compensate(corners, seed, "--arcs-mm 0.001");
     ASSERT_EQ(done.exit_code, 0) << done.err;
     const BcTrunnion bc(folder_);
     const auto was = PlainControl(corners).moves;
@@ -220,7 +221,7 @@ TEST_F(WholePath, AProgramThatComesOutWorseIsRefused) {
                 0.5e3 * bow_mm);
   file("e.toml", errors);
   const std::string call =
-      "compensate p.nc --machine m.toml --errors e.toml -o out.nc --json r.json";
+      "machine compensate p.nc --machine m.toml --errors e.toml -o out.nc --json r.json";
   const CommandStreams done = command(call);
   EXPECT_EQ(done.exit_code, 1) << done.out;
   EXPECT_TRUE(contains(done.err, "--tolerance-um")) << done.err;

@@ -119,7 +119,7 @@ TEST_F(RecordingDoubts, PointsWithoutAnAngleAreToldWhoReadsThem) {
   for (const char* const head : {"x,y,z\n", "X [mm],Y [mm],Z [mm]\n", ""}) {
     std::string text = head;
     for (int i = 0; i < 6; ++i) text += fmt::format("{},{}.25,{}.5\n", 20 + i, i, i);
-    expect_said(refusal(text), "trueaxis associate FILE --element cylinder");
+    expect_said(refusal(text), "trueaxis fit --points FILE --element cylinder");
   }
   EXPECT_EQ(refusal("X,Z,t\n20.5,1,1\n20.25,2,2\n").find("associate"), std::string::npos);
 }

@@ -59,18 +59,18 @@ StreamPoints points_of_stream(const ProbeStream& stream, SurfaceKind surface,
     refuse("has several set-ups, in each of which the part stands otherwise: give each a stream");
   const bool relative = !face && stream.indication == Indication::relative;
   if (relative && !stream.nominal_radius_mm)
-    refuse("is a gauge's reading, which is no position: say --nominal-radius");
+    refuse("is a gauge's reading, which is no position: say --nominal-radius-mm");
   StreamPoints out;
   out.ball_radius_mm =
       options.ball_radius_mm > 0.0 ? options.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
   if (relative && surface == SurfaceKind::cone && out.ball_radius_mm == 0.0)
     refuse(
         "is a gauge's reading of a cone, which a ball touches beside its own Z: say "
-        "--ball-radius, of a knife edge a small one");
+        "--ball-radius-mm, of a knife edge a small one");
   if (!wrong.empty()) throw InputError(std::move(wrong));
   if (out.ball_radius_mm == 0.0 && surface == SurfaceKind::cone)
     out.notes.emplace_back(
-        "X_M was taken as the contact; where it is a ball's centre, say --ball-radius: the cone "
+        "X_M was taken as the contact; where it is a ball's centre, say --ball-radius-mm: the cone "
         "is then smaller by the radius over the cosine of its half angle");
   const double nominal = relative ? *stream.nominal_radius_mm : 0.0;
   out.points_mm.reserve(stream.size());

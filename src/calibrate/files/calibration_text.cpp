@@ -39,9 +39,8 @@ std::string components_text(const Calibration& c) {
                       "{:.2g} times that, by these data",
                       c.components.size(), c.size_of_components));
   if (count > 0)
-    text += layout::wrapped(
-        "", "The data show component errors, which the errors written have: " + shown +
-                " RMS. trueaxis diagnose --machine tests and names them");
+    text += layout::wrapped("", "The data show component errors, which the errors written have: " +
+                                    shown + " RMS. trueaxis machine diagnose tests and names them");
   return text;
 }
 

@@ -88,9 +88,9 @@ std::string calibration_screen(const Calibration& c) {
   if (!open.empty())
     text += fmt::format("open   not determined and left as given: {}; --verbose says why\n",
                         fmt::join(open, ", "));
-  return text + (c.equations > 0
-                     ? "next   trueaxis diagnose with the same data: errors beside these, by name\n"
-                     : "");
+  return text + (c.equations > 0 ? "next   trueaxis machine diagnose with the same data: errors "
+                                   "beside these, by name\n"
+                                 : "");
 }
 
 std::string machine_findings_screen(const MachineDiagnosis& d) {

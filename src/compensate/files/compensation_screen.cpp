@@ -68,7 +68,8 @@ std::string next_screen_of(const ProgramCompensation& result, const Compensation
   if (!options.tolerance_mm && between_mm > std::max(1e-3, 5.0 * result.after.position.value))
     return "next   --tolerance-um cuts the moves in pieces: between their ends the tip is off by " +
            um(between_mm) + "\n";
-  return "next   run the new program in place of the old one; trueaxis simulate cuts it first\n";
+  return "next   run the new program in place of the old one; trueaxis machine simulate cuts it "
+         "first\n";
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ sampling_hz = 20000
 constexpr std::string_view sweep =
     R"(# How good must the probe be, and how long the pass? A thousand simulated streams a cell against the
 # limit that no method beats (Cramer and Rao):
-#   trueaxis sweep sweep.toml -o sweep
+#   trueaxis study sweep sweep.toml -o sweep
 name = "noise of the probe and length of the pass"
 seed = 1
 repeats = 1000

@@ -77,7 +77,7 @@ std::vector<std::string> words_of(const StreamReadOptions& options) {
   if (options.diameter) words.emplace_back(*options.diameter ? "--diameter" : "--radius");
   if (options.indication == Indication::relative) words.emplace_back("--relative");
   if (options.nominal_radius_mm) {
-    words.emplace_back("--nominal-radius");
+    words.emplace_back("--nominal-radius-mm");
     words.push_back(fmt::format("{}", *options.nominal_radius_mm));
   }
   return words;

@@ -149,29 +149,28 @@ int execute(const CorrectArguments& options) {
 
 }  // namespace
 
-void add_correct(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("correct", "the fast-tool-servo table of a fit");
+void add_table(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<CorrectArguments>();
   command
       ->add_option("fit", options->fit,
-                   "result of 'diagnose --json', or of 'fit --json' with --diagnosis or --ideal")
+                   "result of diagnose --json, or of fit --json with --diagnosis or --ideal")
       ->required();
   command
       ->add_option("--target", options->target,
                    "TOML with [target], [cut] and [actuator], as in a job")
-      ->required();
-  auto* table = add_option(*command, "-o,--output", options->table, a_place(),
-                           "the table (CSV), '-' prints it");
+      ->required()
+      ->type_name("FILE");
+  auto* table = add_place(*command, "-o,--output", options->table, "table (CSV); - prints it");
   auto* preview = command->add_flag("--preview", options->preview,
                                     "print extremes and harmonics, write nothing");
   preview->excludes(table);
   auto* diagnosis = command->add_option("--diagnosis", options->diagnosis,
-                                        "of the fit: result of 'diagnose --json'");
-  command
-      ->add_flag("--ideal", options->ideal,
-                 "without a diagnosis: rest on the ideal surface, whatever it misses")
+                                        "diagnosis of the fit: result of diagnose --json");
+  diagnosis->type_name("FILE");
+  command->add_flag("--ideal", options->ideal, "rely on the ideal fit without a diagnosis")
       ->excludes(diagnosis);
-  command->add_option("--stream", options->stream.path, "where the diagnosed stream is now");
+  command->add_option("--stream", options->stream.path, "diagnosed stream, if it has moved")
+      ->type_name("FILE");
   options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
   StreamOptions::add_ball_radius(*command, options->ball_radius_mm);

@@ -13,9 +13,9 @@
 namespace trueaxis::cli {
 namespace {
 
-/// What `locate` and `datum` have in common: one file in, a set-up out.
+/// What `setup locators` and `setup datums` have in common: one file in, a set-up out.
 struct SetupCommand {
-  const char *name, *description, *file;
+  const char* file;
   /// Reads the file and finds the set-up, its frames with so many decimals.
   SetupResult (*solve)(const std::string& path, int decimals);
 };
@@ -52,17 +52,16 @@ int execute(const SetupArguments& options, const SetupCommand& which) {
   return done;
 }
 
-void add_setup_command(CLI::App& app, const SetupCommand& which, int& exit_code) {
-  CLI::App* command = app.add_subcommand(which.name, which.description);
+void add_setup_command(CLI::App* command, const SetupCommand& which, int& exit_code) {
   auto options = std::make_shared<SetupArguments>();
   command->add_option("file", options->path, which.file)->required();
   Results& results = options->results;
   results.add(*command, "-o,--output", "trueaxis.errors",
-              "write it as errors of the workpiece, X0W … C0W, here (TOML), '-' prints them");
-  results.add(*command, "--json", "trueaxis.setup", "write the result here (JSON), '-' prints it");
+              "errors of the workpiece, X0W … C0W (TOML)");
+  results.add(*command, "--json", "trueaxis.setup", "result (JSON); - prints it");
   add_option(*command, "--decimals", options->decimals,
              CLI::Range(least_frame_decimals, most_frame_decimals),
-             "of mm and degrees in the frames of the controls (6)");
+             "decimals of mm and degrees in the frames of controls (default 6)");
   add_force(*command, options->results.force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
@@ -71,20 +70,18 @@ void add_setup_command(CLI::App& app, const SetupCommand& which, int& exit_code)
 
 }  // namespace
 
-void add_locate(CLI::App& app, int& exit_code) {
-  add_setup_command(app,
-                    {"locate", "where a part is on the six measured locators of its fixture",
-                     "locators: ideal and measured (TOML)",
+void add_setup_locators(CLI::App* command, int& exit_code) {
+  add_setup_command(command,
+                    {"locators: ideal and measured (TOML)",
                      [](const std::string& path, int decimals) {
                        return result_of(read_locate_toml(path), decimals);
                      }},
                     exit_code);
 }
 
-void add_datum(CLI::App& app, int& exit_code) {
-  add_setup_command(app,
-                    {"datum", "where a part is whose datum surfaces have errors",
-                     "nine datum errors, or points of the datums (TOML)",
+void add_setup_datums(CLI::App* command, int& exit_code) {
+  add_setup_command(command,
+                    {"nine datum errors, or points of the datums (TOML)",
                      [](const std::string& path, int decimals) {
                        return result_of(read_datum_toml(path), decimals);
                      }},

@@ -53,14 +53,12 @@ int execute(const AxesArguments& options) {
 
 }  // namespace
 
-void add_axes(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "axes", "axis positions that put the tool of the nominal machine at points of a tool path");
+void add_inverse(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<AxesArguments>();
   options->machine.add_machine_to(*command);
-  command->add_option("points", options->targets, "tool positions (CSV): x,y,z,i,j,k")->required();
-  command->add_flag("--all", options->all,
-                    "every solution within the limits, not only the nearest one");
+  command->add_option("points", options->targets, "tool positions and axes (CSV): x,y,z,i,j,k")
+      ->required();
+  command->add_flag("--all", options->all, "all solutions within the limits (default the nearest)");
   options->machine.add_work_offset_to(*command);
   options->output.add_to(*command);
   command->callback([options, &exit_code] { exit_code = execute(*options); });

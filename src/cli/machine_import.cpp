@@ -42,15 +42,13 @@ int execute(const MachineArguments& options) {
 
 }  // namespace
 
-void add_machine(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "machine", "a Denavit-Hartenberg table made a machine in the zero-position form");
+void add_machine_import(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<MachineArguments>();
-  command->add_option("dh", options->input, "a machine with [[dh]] rows (TOML)")->required();
-  add_option(*command, "-o,--output", options->output, a_place(), "write the machine here (TOML)")
+  command->add_option("dh", options->input, "machine with [[dh]] rows (TOML)")->required();
+  add_place(*command, "-o,--output", options->output, "machine in the zero-position form (TOML)")
       ->required();
-  add_option(*command, "--errors-output", options->errors_output, a_place(),
-             "write the errors of the parameters here, as location errors (TOML)");
+  add_place(*command, "--errors-output", options->errors_output,
+            "errors of the parameters as location errors (TOML)");
   add_force(*command, options->force);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
