@@ -145,7 +145,8 @@ TEST_F(Help, TroubleIsSeen) {
 TEST_F(Help, EveryCommandOfThePagesIsThere) {
   std::vector<std::filesystem::path> pages{root / "README.md"};
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "docs"))
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+    if (entry.path().extension() == ".md" && entry.path().filename() != "numbers.md")  // history
+      pages.push_back(entry.path());
   std::size_t lines = 0;
   for (const auto& page : pages)
     for (const std::string& line : typed_in(read_text(page))) {
