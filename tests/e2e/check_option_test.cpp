@@ -71,7 +71,7 @@ TEST_F(CheckOption, OfAMachine) {
   const std::string of = data + "five_axis/";
   const std::string measured = of + "zxacy_ball.csv --machine " + of + "zxacy.toml";
   expect_checked("run " + data + "jobs/blade.toml -o out", "rewrite ");
-  expect_checked("diagnose " + measured + " --json d.json", "by 120 rows");
+  expect_checked("machine diagnose " + measured + " --json d.json", "by 120 rows");
   expect_checked("advise " + measured, "next measurement");
   expect_checked("machine calibrate --machine " + of + "trunnion_ac.toml " + of +
                      "trunnion_ac_ball.csv -o e.toml",

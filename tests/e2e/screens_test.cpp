@@ -39,8 +39,8 @@ class Screens : public CommandTest {
     return {"run " + of + "jobs/blade.toml -o blade",
             "machine calibrate --machine " + machines + "trunnion_ac.toml " + machines +
                 "trunnion_ac_ball.csv -o c.toml",
-            "diagnose " + ball,
-            "diagnose " + ball + " --program " + machines + "blade.nc --json d.json",
+            "machine diagnose " + ball,
+            "machine diagnose " + ball + " --program " + machines + "blade.nc --json d.json",
             "advise " + ball,
             "advise --machine " + machines + "zxacy.toml",
             "setup datums " + machines + "holes.toml -o e.toml",
