@@ -22,7 +22,8 @@ std::string command_lines(const std::string& first_word) {
     if (!first_word.empty() && !name.starts_with(first_word + ' ')) continue;
     if (group != entry.group) text += std::string(entry.group) + '\n';
     group = entry.group;
-    text += "  " + layout::padded(name, name_column) + entry.line + '\n';
+    const std::string shown = first_word.empty() ? name : name.substr(first_word.size() + 1);
+    text += "  " + layout::padded(shown, name_column) + entry.line + '\n';
   }
   return text;
 }

@@ -127,7 +127,7 @@ TEST_F(Help, SaysWhatToDoNext) {
   EXPECT_TRUE(contains(alone.err, "trueaxis init first"));
   const CommandStreams machine = command("machine");
   EXPECT_EQ(machine.exit_code, 2);
-  EXPECT_TRUE(contains(machine.err, "machine calibrate"));
+  EXPECT_TRUE(contains(machine.err, "\n  calibrate "));
   EXPECT_EQ(command("machine calibrat").err,
             "trueaxis machine has no command calibrat, did you mean calibrate?\n"
             "trueaxis machine --help lists all.\n");
