@@ -70,5 +70,15 @@ TEST(SensorDoubts, LobesElsewhereAreAGo) {
   EXPECT_LE(coaxiality_mm_of(result, 0.03), tolerance_mm);
 }
 
+// 2 and 3 undulations of 2 µm beside an eccentricity of 15 µm would be a sensor that errs by a
+// quarter of its range, and one would move the axis by 6 µm. The axis is known to better than 0.5.
+TEST(SensorDoubts, ASensorDoesNotBendByAQuarterOfItsRange) {
+  for (const double eccentric_mm : {0.015, 0.03}) {
+    const JobResult result = job_of_lobes(eccentric_mm, 2e-3, 2e-3, 0.0);
+    EXPECT_TRUE(result.verdict.go()) << verdict_line(result);
+    EXPECT_LE(coaxiality_mm_of(result, eccentric_mm), 1e-3) << eccentric_mm;
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/local_forms.hpp"
 #include "trueaxis/units.hpp"
 
@@ -76,6 +77,7 @@ std::string form_words(const std::vector<Hypothesis>& terms) {
   for (const Hypothesis& h : terms) {
     if (is_local(h)) words.push_back(place_of(h.pattern));
     if (is_lobes(h)) orders.push_back(order_of(h));
+    if (h.effect && bends_reading(h.effect->term)) words.emplace_back(h.effect->title);
   }
   std::ranges::sort(orders);
   const auto [first, last] = std::ranges::unique(orders);
@@ -111,6 +113,7 @@ std::vector<std::string> form_class_remark(const Problem& problem, const Joint& 
       members.emplace_back(words, o.probability);
     else
       same->second += o.probability;
+    if (!problem.resolution.sparse) continue;
     const Joint other(problem, joint.equations.autoregression(), o.terms, o.terms.size());
     const int needed = angles_that_tell(problem, joint, other);
     tell &= needed > 0;
@@ -119,6 +122,11 @@ std::vector<std::string> form_class_remark(const Problem& problem, const Joint& 
   std::vector<std::string> list;
   for (const auto& [words, probability] : members)
     list.push_back(fmt::format("{} (probability {:.2g})", words, probability));
+  if (!problem.resolution.sparse)
+    return {
+        fmt::format("{}: these readings cannot tell, and the axis is averaged over both; jog X "
+                    "by a known amount and probe again",
+                    fmt::join(list, " or "))};
   return {
       fmt::format("{}: {:.0f} angles a section cannot tell, and the axis is averaged over all; {}",
                   fmt::join(list, " or "), problem.resolution.per_turn,

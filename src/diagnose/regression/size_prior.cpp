@@ -9,6 +9,9 @@ namespace {
 
 constexpr double wrong_statement = 1e-3;  // how often what is stated of a machine is wrong
 constexpr double exact = 1e-6;            // of the median: a statement of u = 0
+/// What a sensor errs by where it reads, over the range that it was read in: one that bends more
+/// measures no distance.
+constexpr double most_of_range = 0.1;
 
 struct Range {
   double median = 0.0, spread = spread_of_size(0.0);
@@ -23,6 +26,12 @@ Range range_of_size(const EffectParameter* p, const TermShape& shape) {
 }
 
 }  // namespace
+
+bool bends_reading(const EffectTerm& term) {
+  const auto* response = std::get_if<Response>(&term);
+  return response &&
+         (response->of == Response::Of::nonlinearity || response->of == Response::Of::cyclic);
+}
 
 SizePrior size_prior(const Hypothesis& h) {
   const auto count = static_cast<Eigen::Index>(h.columns());
@@ -48,6 +57,10 @@ SizePrior size_prior(const Hypothesis& h) {
       out.least(j) = pair ? -parameter->most : parameter->least;
     }
     out.spread = std::max(out.spread, range.spread);
+  }
+  if (bends_reading(h.effect->term) && h.shape.range_mm > 0.0) {
+    out.most = out.most.cwiseMin(most_of_range * h.shape.range_mm);
+    out.least = out.least.cwiseMax(-most_of_range * h.shape.range_mm);
   }
   out.spread *= h.effect->size_spread;
   if (h.effect->stated && count == 1 && out.median(0) > 0.0) {

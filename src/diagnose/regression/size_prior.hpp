@@ -6,6 +6,10 @@
 
 namespace trueaxis::diagnose_detail {
 
+/// Whether a term is a function of the reading alone, other than a gain: it makes several orders of
+/// an eccentricity, and moves the axis.
+bool bends_reading(const EffectTerm& term);
+
 /// Over the sizes that the catalogue calls typical (Eq. 79).
 SizePrior size_prior(const Hypothesis& hypothesis);
 

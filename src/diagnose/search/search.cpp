@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnose/regression/joint.hpp"
+#include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/form_with_lobes.hpp"
 #include "diagnose/search/stepwise_search.hpp"
@@ -69,7 +70,13 @@ std::vector<double> effect_of(const Problem& problem, const Model& model) {
   return contribution(problem.point, model.terms, span_of(joint.solution.coefficients.tail(count)));
 }
 
-bool has_local(const Model& model) { return std::ranges::any_of(model.terms, is_local); }
+bool is_bent(const Hypothesis& h) { return h.effect && bends_reading(h.effect->term); }
+
+/// Whether the axis depends on which of two models it is: no lobe moves it.
+bool moves_axis(const Model& model) {
+  return std::ranges::any_of(model.terms,
+                             [](const Hypothesis& h) { return is_local(h) || is_bent(h); });
+}
 
 /// The best of models that explain the readings alike, and the others by their probability. What
 /// differs by less than one standard deviation is one model (Eq. 82b).
@@ -83,7 +90,7 @@ Model best_of(const Problem& problem, std::vector<Model> found) {
   for (const Model& model : found) {
     const double likelihood = std::exp(-0.5 * (model.criterion - best.criterion));
     if (likelihood < in_the_class) break;
-    if (!had.empty() && !has_local(best) && !has_local(model)) continue;  // no lobe moves the axis
+    if (!had.empty() && !moves_axis(best) && !moves_axis(model)) continue;
     std::vector<double> effect = effect_of(problem, model);
     const auto is_it = [&](const std::vector<double>& other) {
       double sum2 = 0.0;
@@ -117,12 +124,28 @@ Model search_few_angles(Proposer& proposer, StepwiseSearch& engine) {
   return best_of(problem, std::move(found));
 }
 
+/// What bends a sensor's readings is weighed against all that may be without it: two lobes that are
+/// in phase with the eccentricity look like it, one after the other they never take its place.
+Model weighed_without_bend(Model model, const Problem& problem) {
+  const bool bent = std::ranges::any_of(model.terms, is_bent) ||
+                    (model.impossible && bends_reading(model.impossible->term));
+  if (!bent) return model;
+  Problem straight = problem;
+  std::erase_if(straight.effects, [](const Effect* one) { return bends_reading(one->term); });
+  Proposer proposer(straight);
+  StepwiseSearch engine(proposer);
+  std::vector<Model> found{std::move(model)};
+  found.push_back(search_with(engine));
+  return best_of(problem, std::move(found));
+}
+
 }  // namespace
 
 Model search(Proposer& proposer) {
   StepwiseSearch engine(proposer);
-  return proposer.problem().resolution.sparse ? search_few_angles(proposer, engine)
-                                              : search_with(engine);
+  const Problem& problem = proposer.problem();
+  if (problem.resolution.sparse) return search_few_angles(proposer, engine);
+  return weighed_without_bend(search_with(engine), problem);
 }
 
 }  // namespace trueaxis::diagnose_detail
