@@ -14,6 +14,7 @@
 #include "cli/results.hpp"
 #include "cli/stream_options.hpp"
 #include "cli/terminal.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -41,7 +42,8 @@ struct AdviseArguments {
   bool verbose = false, check = false;
 };
 
-Diagnosis advise(const ProbeStream& stream, const FitOptions& fit, double false_alarm) {
+Diagnosis advise(const ProbeStream& stream, const FitOptions& fit, double false_alarm,
+                 bool printed = false) {
   DiagnoseOptions options;
   options.fit = fit;
   options.false_alarm = false_alarm;
@@ -49,7 +51,7 @@ Diagnosis advise(const ProbeStream& stream, const FitOptions& fit, double false_
   Diagnosis diagnosis = diagnose(corrected_by_known(stream, fit), options);
   waiting.reset();
   expect_enough_readings(diagnosis.baseline);
-  std::cout << advice_text(diagnosis);
+  if (!printed) std::cout << advice_text(diagnosis);
   return diagnosis;
 }
 
@@ -67,6 +69,9 @@ void advise_on_tolerance(IdentifiedJob job, const std::string& file) {
 
 int advise_job(const AdviseArguments& options) {
   const std::string content = read_file(options.stream.path);
+  if (options.results.asked("--json"))
+    throw InputError(options.stream.path,
+                     "is a job, of which run writes all results: --json is for a stream");
   if (is_machine_job(content, options.stream.path)) {
     const MachineJob job = read_machine_job_toml(content, options.stream.path);
     Outputs outputs;
@@ -116,7 +121,6 @@ bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
       expect_none(command, {"--noise-um"}, "is for a first plan: a measurement states its own");
   } else {
     expect_one_stream(command, options.data.size());
-    expect_none(command, {"--json", "--force"}, "is for a machine: name it with --machine");
   }
   return machine;
 }
@@ -133,7 +137,7 @@ void add_advise(CLI::App* command, int& exit_code) {
   options->results.add(*command, "-o,--output", "trueaxis.measurement_plan",
                        "--machine: positions of the next measurement (CSV), to be filled in");
   options->results.add(*command, "--json", "trueaxis.machine_diagnosis",
-                       "--machine: result (JSON); - prints it");
+                       "diagnosis (JSON); - prints it");
   add_force(*command, options->results.force);
   const CLI::Option* surface = options->association.add_to(*command);
   add_false_alarm(*command, options->false_alarm);
@@ -155,18 +159,24 @@ void add_advise(CLI::App* command, int& exit_code) {
       return;
     }
     if (surface->count() == 0) throw CLI::RequiredError("--surface");
+    options->results.say("--json", "trueaxis.diagnosis");
+    Outputs outputs(options->results.force);
+    outputs.reads(options->stream.path);
+    options->results.name_to(outputs);
+    outputs.check();
     const ProbeStream stream = options->stream.read();
     expect_one_surface(stream, options->association.chosen().surface, RangesAs::options);
     if (options->check) {
-      Outputs outputs;
-      outputs.reads(options->stream.path);
       exit_code = checked(outputs, "diagnose a " + options->association.surface + " in " +
                                        std::to_string(stream.size()) +
                                        " readings and propose the next measurement");
       return;
     }
-    exit_code =
-        exit_code_of_advice(advise(stream, options->association.chosen(), options->false_alarm));
+    const Diagnosis diagnosis = advise(stream, options->association.chosen(), options->false_alarm,
+                                       options->results.printed());
+    options->results.write(outputs, "--json", [&] { return diagnosis_json(diagnosis); });
+    outputs.commit();
+    exit_code = exit_code_of_advice(diagnosis);
   });
 }
 

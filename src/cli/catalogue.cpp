@@ -206,9 +206,12 @@ void add_commands(CLI::App& app, int& exit_code) {
     const std::size_t blank = name.find(' ');
     CLI::App* parent =
         blank == std::string::npos ? &app : holder_of(app, name.substr(0, blank), entry.group);
-    entry.add(parent->add_subcommand(blank == std::string::npos ? name : name.substr(blank + 1),
-                                     entry.line),
-              exit_code);
+    CLI::App* const command = parent->add_subcommand(
+        blank == std::string::npos ? name : name.substr(blank + 1), entry.line);
+    entry.add(command, exit_code);
+    // What prints all it has takes the option as well: a script may give it to every command.
+    if (command->get_option_no_throw("--verbose") == nullptr)
+      command->add_flag("-v,--verbose", "print all details (always so here)");
   }
 }
 

@@ -6,7 +6,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
+#include "cli/options.hpp"
+#include "cli/results.hpp"
 #include "effect/files/effects_files.hpp"
+#include "format/outputs.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
 
@@ -15,7 +18,8 @@ namespace {
 
 struct EffectsArguments {
   std::string id;
-  bool json = false, markdown = false;
+  Results results;
+  bool markdown = false;
 };
 
 const Effect& known_effect(const std::string& id) {
@@ -31,12 +35,19 @@ int execute(const EffectsArguments& options) {
   if (!options.id.empty()) chosen.push_back(&known_effect(options.id));
   if (options.markdown) {
     std::cout << effects_markdown();
-  } else if (options.json) {
-    if (options.id.empty()) {
-      for (const Effect& effect : effect_catalogue()) chosen.push_back(&effect);
-    }
-    std::cout << effects_json(chosen);
-  } else {
+    return done;
+  }
+  Outputs outputs(options.results.force);
+  options.results.name_to(outputs);
+  outputs.check();
+  options.results.write(outputs, "--json", [&] {
+    std::vector<const Effect*> written = chosen;
+    if (written.empty())
+      for (const Effect& effect : effect_catalogue()) written.push_back(&effect);
+    return effects_json(written);
+  });
+  outputs.commit();
+  if (!options.results.printed()) {
     std::cout << (chosen.empty() ? effects_list_text() : effect_text(*chosen.front()));
   }
   return done;
@@ -48,7 +59,8 @@ void add_effects(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<EffectsArguments>();
   command->add_option("id", options->id, "cause to explain, as part.bow");
   command->add_flag("--markdown", options->markdown, "print the catalogue as a page");
-  command->add_flag("--json", options->json, "print as JSON (trueaxis.effects/1)");
+  add_json(*command, options->results, "trueaxis.effects");
+  add_force(*command, options->results.force);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

@@ -23,6 +23,7 @@ struct ErrorsArguments {
   Results results;
   std::string at, format = "toml", output_sign;
   int points = 101;
+  bool check = false;
 };
 
 /// "X=50,A=-35": mm and degrees, axes that are left out at 0.
@@ -82,6 +83,7 @@ int execute(const ErrorsArguments& options) {
   for (const std::string& path : options.machine.errors) outputs.reads(path);
   results.name_to(outputs);
   outputs.check();
+  if (options.check) return checked(outputs, "list the errors of " + file.machine.name);
   results.write(outputs, "--json", [&] { return errors_json(file.machine, errors, at, remarks); });
   results.write(outputs, "--output", [&] { return converted(options, file.machine, errors); });
   outputs.commit();
@@ -111,6 +113,7 @@ void add_errors(CLI::App* command, int& exit_code) {
   add_option(*command, "--points", options->points, CLI::Range(2, 100000),
              "points of an etalon or isg table for an axis not yet tabulated (default 101)");
   add_force(*command, options->results.force);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] {
     if (options->format != "toml") options->results.say("--output", "trueaxis." + options->format);
     exit_code = execute(*options);

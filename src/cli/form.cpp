@@ -30,7 +30,7 @@ struct FormArguments {
   std::string tolerances, element, unit, array;
   double noise_um = -1.0, spindle_range_um = 0.0;
   Results results;
-  bool verbose = false;
+  bool verbose = false, check = false;
 };
 
 /// "1-50", "15-500", or one number, the upper.
@@ -97,6 +97,13 @@ int execute(const FormArguments& options) {
   if (!options.datum.empty()) outputs.reads(options.datum);
   results.name_to(outputs);
   outputs.check();
+  if (options.check) {
+    if (options.element.empty())
+      expect_one_surface(options.stream.read(), SurfaceKind::cylinder, RangesAs::options);
+    else
+      read_points(options.stream.path, options.unit, options.array);
+    return checked(outputs, "evaluate the form of " + options.stream.path);
+  }
   const FormResult result = assessed(options, form);
   const FormVerdict verdict = judge_form(result, tolerances);
   results.write(outputs, "--json", [&] { return form_json(result); });
@@ -104,7 +111,9 @@ int execute(const FormArguments& options) {
   results.write(outputs, "--qif",
                 [&] { return form_qif(result, tolerances, options.element.empty()); });
   outputs.commit();
-  if (!results.printed()) std::cout << verdict.text << form_text(result, options.verbose);
+  if (!results.printed())
+    std::cout << (verdict.text.empty() ? form_line(result) : verdict.text)
+              << form_text(result, options.verbose);
   return verdict.met ? done : refused;
 }
 
@@ -152,11 +161,12 @@ void add_rest(CLI::App& command, FormArguments& options) {
   Results& results = options.results;
   results.add(command, "--json", "trueaxis.form", "result (JSON); - prints it");
   results.add(command, "--profile", "trueaxis.form_profile",
-              "profiles before and after the filter (CSV)");
+              "profiles before and after the filter (CSV), features (QIF 3.0, XML)");
   results.add(command, "--qif", "trueaxis.qif",
-              "features and toleranced characteristics (QIF 3.0, XML)");
+              "profiles before and after the filter (CSV), features (QIF 3.0, XML)");
   add_force(command, results.force);
   add_verbose(command, options.verbose);
+  add_check(command, options.check);
 }
 
 }  // namespace

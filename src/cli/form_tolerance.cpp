@@ -41,10 +41,25 @@ std::vector<FormTolerance> parse_form_tolerances(const std::string& text) {
     double um = 0.0;
     if (equals == 0 || equals == std::string::npos ||
         !parse_number(std::string_view(part).substr(equals + 1), um) || !(um > 0.0))
-      throw CLI::ValidationError("--tolerance-um", part + " is no tolerance such as RONt=2");
+      throw CLI::ValidationError("--tolerance-um", part + " is not a tolerance such as RONt=2");
     list.push_back({part.substr(0, equals), um * mm_per_um});
   }
   return list;
+}
+
+std::string form_line(const FormResult& result) {
+  const double k = result.options.coverage_factor;
+  const auto values = all_values(result);
+  std::string text;
+  for (const char* const name : {"RONt", "CYLt", "CONt", "FLTt", "STRt"}) {
+    const FormValue* worst = nullptr;
+    for (const FormValue* one : values)
+      if (counts(*one, name) && (!worst || most_of(*one, k) > most_of(*worst, k))) worst = one;
+    if (worst)
+      text += std::string(text.empty() ? "" : ", ") + name + ' ' +
+              form_value_text(*worst, k, 1.0 / mm_per_um, "µm");
+  }
+  return "FORM: " + (text.empty() ? "no value of the whole surface" : text) + '\n';
 }
 
 FormVerdict judge_form(const FormResult& result, const std::vector<FormTolerance>& tolerances) {
@@ -61,7 +76,7 @@ FormVerdict judge_form(const FormResult& result, const std::vector<FormTolerance
     }
     if (!worst) {
       throw InputError("--tolerance-um", "there is no value " + tolerance.name +
-                                             " here to hold against a tolerance, but " +
+                                             " here to compare with a tolerance; there are " +
                                              word_list(names));
     }
     const bool met = most_of(*worst, k) <= tolerance.limit_mm;

@@ -13,18 +13,23 @@ namespace trueaxis::cli {
 void add_init(CLI::App* command, int& exit_code) {
   struct Options {
     std::string folder;
-    bool force = false;
+    bool force = false, check = false;
   };
   auto options = std::make_shared<Options>();
   add_option(*command, "folder", options->folder, a_place(), "folder for the files, new or empty")
       ->required();
   add_force(*command, options->force);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] {
     Outputs outputs(options->force);
     outputs.into(options->folder);
     for (const StarterFile& file : starter_files())
       outputs.may_begin(outputs.in_folder(std::string(file.name)), std::string(file.text));
     outputs.check();
+    if (options->check) {
+      exit_code = checked(outputs, "write files to begin with");
+      return;
+    }
     for (const StarterFile& file : starter_files())
       outputs.write(outputs.in_folder(std::string(file.name)), file.text);
     outputs.commit();

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
@@ -41,14 +42,31 @@ std::vector<std::vector<AxisPositions>> solve(const MachineModel& model,
   return solutions;
 }
 
+/// For each point its solutions, an axis in mm or deg by its letter.
+Json axes_json(const Machine& machine, const std::vector<std::vector<AxisPositions>>& solutions) {
+  return list_of(solutions, [&](const std::vector<AxisPositions>& of_point) {
+    return list_of(of_point, [&](const AxisPositions& axes) {
+      Json json;
+      for (const MachineAxis& axis : machine.axes) {
+        const auto index = static_cast<std::size_t>(axis.name);
+        json[std::string(1, "XYZABC"[index]) + (index < 3 ? "_mm" : "_deg")] =
+            axes[index] / (index < 3 ? 1.0 : rad_per_deg);
+      }
+      return json;
+    });
+  });
+}
+
 int execute(const AxesArguments& options) {
   const MachineFile file = options.machine.read_machine();
   const MachineModel model(file.machine);
   const Setting setting = options.machine.setting_of(file.machine);
   const auto targets = read_tool_targets_csv(options.targets);
-  const std::string text = axes_csv(file.machine, solve(model, targets, setting, options.all));
-  options.output.print_or_write("trueaxis.axes", text, {options.machine.machine, options.targets});
-  return done;
+  const auto solutions = solve(model, targets, setting, options.all);
+  return options.output.print_or_write(
+      "trueaxis.axes", axes_csv(file.machine, solutions), axes_json(file.machine, solutions),
+      {options.machine.machine, options.targets},
+      "find the axis positions of " + counted(targets.size(), "point"));
 }
 
 }  // namespace
@@ -60,7 +78,7 @@ void add_inverse(CLI::App* command, int& exit_code) {
       ->required();
   command->add_flag("--all", options->all, "all solutions within the limits (default the nearest)");
   options->machine.add_work_offset_to(*command);
-  options->output.add_to(*command);
+  options->output.add_to(*command, "trueaxis.axes");
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

@@ -173,7 +173,7 @@ int MachineDiagnosed::diagnose(const Results& results) const {
     std::cout << machine_diagnosis_text(said.found) << (said.harm ? harm_text(*said.harm) : "");
   else
     print_screen(machine_diagnosis_screen(said.found) + (said.harm ? harm_screen(*said.harm) : "") +
-                 notes_screen(read.given.remarks) + next_screen(said.found));
+                 notes_screen(read.given.remarks));
   std::cout << results.line("result ", "--json") << results.line("result ", "--output")
             << results.line("report ", "--report");
   return done;

@@ -14,7 +14,7 @@ namespace {
 
 struct MachineArguments {
   std::string input, output, errors_output;
-  bool force = false;
+  bool force = false, check = false;
 };
 
 int execute(const MachineArguments& options) {
@@ -33,6 +33,7 @@ int execute(const MachineArguments& options) {
   outputs.may_write(options.output, "trueaxis.machine");
   outputs.may_write(options.errors_output, "trueaxis.errors");
   outputs.check();
+  if (options.check) return checked(outputs, "convert " + options.input);
   outputs.write(options.output, machine_toml(file.machine));
   if (has_errors)
     outputs.write(options.errors_output, errors_toml(file.parameter_errors, &file.machine));
@@ -50,6 +51,7 @@ void add_machine_import(CLI::App* command, int& exit_code) {
   add_place(*command, "--errors-output", options->errors_output,
             "errors of the parameters as location errors (TOML)");
   add_force(*command, options->force);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "format/outputs.hpp"
 #include "trueaxis/error.hpp"
@@ -52,23 +53,31 @@ Setting MachineOptions::setting_of(const Machine& of) const {
   return setting;
 }
 
-void TableOutput::add_to(CLI::App& command) {
-  add_place(command, "-o,--output", place, "table (CSV, default printed)");
-  add_force(command, force);
+void TableOutput::add_to(CLI::App& command, const std::string& schema) {
+  results.add(command, "-o,--output", schema, "table (CSV, default printed)");
+  add_json(command, results, schema);
+  add_force(command, results.force);
+  add_check(command, check);
 }
 
-void TableOutput::print_or_write(const std::string& schema, const std::string& table,
-                                 const std::vector<std::string>& read) const {
-  if (place.empty() || place == "-") {
-    std::cout << table;
-    return;
-  }
-  Outputs outputs(force);
+int TableOutput::print_or_write(const std::string& schema, const std::string& table,
+                                const Json& rows, const std::vector<std::string>& read,
+                                const std::string& would) const {
+  Outputs outputs(results.force);
   for (const std::string& path : read) outputs.reads(path);
-  outputs.may_write(place, schema);
+  results.name_to(outputs);
   outputs.check();
-  outputs.write(place, "# schema: " + schema + "/1\n" + table);
+  if (check) return checked(outputs, would);
+  const std::string& place = results["--output"];
+  if (place == "-" || (place.empty() && !results.printed()))
+    std::cout << table;
+  else if (!place.empty())
+    outputs.write(place, "# schema: " + schema + "/1\n" + table);
+  results.write(outputs, "--json", [&] {
+    return json_text({{"schema", schema + "/1"}, {"rows", rows}});
+  });
   outputs.commit();
+  return done;
 }
 
 std::optional<ErrorSign> sign_of(const std::string& word) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/results.hpp"
+#include "format/json.hpp"
 #include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
 #include "trueaxis/machine.hpp"
@@ -30,16 +32,17 @@ struct MachineOptions {
   Setting setting_of(const Machine& machine) const;
 };
 
-/// A table that is printed, or written where `--output` says.
+/// A table that is printed, or written to `--output`, and its rows as JSON.
 struct TableOutput {
-  std::string place;
-  bool force = false;
+  Results results;
+  bool check = false;
 
-  void add_to(CLI::App& command);
-  /// @param schema without the version
+  /// @param schema without the version, of the table and of the JSON
+  void add_to(CLI::App& command, const std::string& schema);
   /// @param read files that the command reads, none of which is written over
-  void print_or_write(const std::string& schema, const std::string& table,
-                      const std::vector<std::string>& read) const;
+  /// @param would what the command does, for `--check`
+  int print_or_write(const std::string& schema, const std::string& table, const Json& rows,
+                     const std::vector<std::string>& read, const std::string& would) const;
 };
 
 std::optional<ErrorSign> sign_of(const std::string& word);

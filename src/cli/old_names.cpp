@@ -100,6 +100,17 @@ void rename_folder(Words& words, std::string& notes) {
     }
 }
 
+/// `effects --json` printed.
+void rename_json(Words& words, std::string& notes) {
+  if (words.front() != "effects") return;
+  const auto at = std::ranges::find(words, "--json");
+  if (at == words.end() ||
+      (at + 1 != words.end() && (*(at + 1) == "-" || !(at + 1)->starts_with('-'))))
+    return;
+  notes += note("effects --json", "effects --json -");
+  words.insert(at + 1, "-");
+}
+
 void rename_options(Words& words, std::string& notes) {
   for (std::string& word : words)
     for (const auto& [old_name, new_name] : options) {
@@ -121,6 +132,7 @@ NewNames with_new_names(Words words) {
   if (out.words.empty()) return out;
   rename_command(out.words, out.notes);
   rename_folder(out.words, out.notes);
+  rename_json(out.words, out.notes);
   rename_options(out.words, out.notes);
   return out;
 }

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
@@ -36,8 +37,14 @@ int execute(const PoseArguments& options) {
   const std::string text = poses_csv(poses, twists_rad);
   std::vector<std::string> read = options.machine.errors;
   read.insert(read.end(), {options.machine.machine, options.positions});
-  options.output.print_or_write("trueaxis.poses", text, read);
-  return done;
+  const Json rows = list_of_first(poses.size(), [&](std::size_t i) {
+    return Json{{"tip_mm", poses[i].tip_mm},
+                {"direction", poses[i].direction},
+                {"twist_deg", twists_rad[i] / rad_per_deg}};
+  });
+  return options.output.print_or_write(
+      "trueaxis.poses", text, rows, read,
+      "say where the tool is in " + counted(poses.size(), "position"));
 }
 
 }  // namespace
@@ -49,7 +56,7 @@ void add_pose(CLI::App* command, int& exit_code) {
       ->required();
   options->machine.add_errors_to(*command);
   options->machine.add_work_offset_to(*command);
-  options->output.add_to(*command);
+  options->output.add_to(*command, "trueaxis.poses");
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

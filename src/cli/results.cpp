@@ -40,9 +40,13 @@ void Results::name_to(Outputs& outputs) const {
   for (const Result& one : all_) outputs.may_write(one.place, one.schema);
 }
 
+void add_json(CLI::App& command, Results& results, const std::string& schema) {
+  results.add(command, "--json", schema, "result (JSON); - prints it");
+}
+
 void add_stream_results(CLI::App& command, Results& results, const std::string& schema,
                         const std::string& residuals_hold) {
-  results.add(command, "--json", schema, "result (JSON); - prints it");
+  add_json(command, results, schema);
   results.add(command, "--residuals", "trueaxis.residuals",
               "every reading with " + residuals_hold + " (CSV)");
   results.add(command, "--report", "trueaxis.report", "report page (HTML)");

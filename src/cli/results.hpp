@@ -46,6 +46,9 @@ class Results {
   std::deque<Result> all_;  ///< CLI11 writes into them: they stay where they are
 };
 
+/// `--json` of a command.
+void add_json(CLI::App& command, Results& results, const std::string& schema);
+
 /// `--json`, `--residuals`, `--report` and `--force` of a command that fits a stream.
 void add_stream_results(CLI::App& command, Results& results, const std::string& schema,
                         const std::string& residuals_hold);

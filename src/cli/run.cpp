@@ -10,6 +10,7 @@
 #include "base/diagnostics.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
+#include "cli/results.hpp"
 #include "cli/run_machine.hpp"
 #include "cli/stream_options.hpp"
 #include "cli/terminal.hpp"
@@ -43,6 +44,7 @@ struct RunArguments {
   AssociationOptions association;
   CLI::Option* surface = nullptr;
   std::string folder;
+  Results results;
   bool force = false, verbose = false, check = false;
 };
 
@@ -80,6 +82,7 @@ int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {
   };
   if (options.check) {
     name_job_files(outputs, file, options.folder);
+    options.results.name_to(outputs);
     all_of({read, [&] { outputs.check(); }});
     for (std::size_t i = 0; i < streams.size(); ++i)
       expect_associable(job.references[i], streams[i]);
@@ -88,6 +91,7 @@ int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {
   read();
   if (!surface_known) choose_surfaces(job, streams);
   name_job_files(outputs, file, options.folder);
+  options.results.name_to(outputs);
   outputs.check();
   std::optional<Waiting> waiting("fit, diagnosis and correction of " + options.stream.path);
   JobResult result = of_file(file.path, [&] { return run_job(job, std::move(streams)); });
@@ -95,9 +99,14 @@ int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {
   std::ranges::for_each(result.fits, expect_enough_readings);
   std::vector<ResultFile> files = job_files(result);
   files.insert(files.begin() + 1, {"report.html", render_report(result, file.path)});
+  options.results.write(outputs, "--json", [&] { return files.front().text; });
   const EarlierRun earlier = write_job_files(outputs, result, files);
   waiting.reset();
-  print(result, outputs, files, earlier, options.verbose);
+  if (options.results.printed()) {
+    if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
+  } else {
+    print(result, outputs, files, earlier, options.verbose);
+  }
   return exit_code_of_job(result);
 }
 
@@ -108,8 +117,9 @@ int execute(const RunArguments& options) {
                      true);
   const std::string content = read_file(path);
   if (is_machine_job(content, path))
-    return run_machine(read_machine_job_toml(content, path),
-                       {options.folder, options.force, options.verbose, options.check});
+    return run_machine(
+        read_machine_job_toml(content, path),
+        {options.folder, options.force, options.verbose, options.check, &options.results});
   return run_lathe(read_job_toml(content, path), options, false);
 }
 
@@ -122,13 +132,14 @@ void add_run(CLI::App* command, int& exit_code) {
   options->surface = options->association.add_to(*command);
   add_place(*command, "-o,--output", options->folder,
             "folder for the results (default INPUT_result, as shaft_result)");
+  add_json(*command, options->results, "trueaxis.run");
   add_force(*command, options->force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
   command->callback([=, &exit_code] {
     if (options->folder.empty()) options->folder = default_folder(options->stream.path);
     if (is_job(options->stream.path))
-      expect_only(*command, {"stream", "--output", "--force", "--verbose", "--check"},
+      expect_only(*command, {"stream", "--output", "--json", "--force", "--verbose", "--check"},
                   "is for a stream alone: write it into the job");
     exit_code = execute(*options);
   });

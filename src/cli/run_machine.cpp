@@ -19,7 +19,8 @@
 namespace trueaxis::cli {
 namespace {
 
-void prepare(Outputs& outputs, const MachineJob& job, const std::string& folder, bool force) {
+void prepare(Outputs& outputs, const MachineJob& job, const RunMachineOptions& options) {
+  const std::string& folder = options.folder;
   for (const JobInput& input : job.inputs) outputs.reads(input.file);
   outputs.into(folder);
   outputs.may_write_in_folder("result.json", "trueaxis.machine_run");
@@ -30,9 +31,11 @@ void prepare(Outputs& outputs, const MachineJob& job, const std::string& folder,
     outputs.may_write_in_folder("compensation.json", "trueaxis.compensation");
     outputs.may_write_in_folder(new_program_name(job), "");
   }
+  options.results->name_to(outputs);
   outputs.check();
   if (job.program)
-    expect_no_other_program(outputs.in_folder(new_program_name(job)), job.program->text, force);
+    expect_no_other_program(outputs.in_folder(new_program_name(job)), job.program->text,
+                            options.force);
 }
 
 void write_all(Outputs& outputs, const MachineJobResult& result) {
@@ -67,7 +70,7 @@ std::string would_do(const MachineJob& job) {
 
 int run_machine(MachineJob job, const RunMachineOptions& options) {
   Outputs outputs(options.force);
-  prepare(outputs, job, options.folder, options.force);
+  prepare(outputs, job, options);
   if (options.check) return checked(outputs, would_do(job));
   std::optional<Waiting> waiting("diagnosis of " + job.machine.name +
                                  (job.program ? ", its program, the verdict" : ""));
@@ -85,8 +88,10 @@ int run_machine(MachineJob job, const RunMachineOptions& options) {
     return numerical;
   }
   write_all(outputs, result);
+  options.results->write(outputs, "--json", [&] { return machine_job_json(result); });
   outputs.commit();
   waiting.reset();
+  if (options.results->printed()) return result.verdict.go() ? done : refused;
   if (options.verbose)
     std::cout << machine_job_text(result);
   else

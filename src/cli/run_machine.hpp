@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "cli/results.hpp"
 #include "trueaxis/machine_job.hpp"
 
 namespace trueaxis::cli {
@@ -10,6 +11,7 @@ namespace trueaxis::cli {
 struct RunMachineOptions {
   std::string folder;
   bool force = false, verbose = false, check = false;
+  const Results* results = nullptr;
 };
 
 /// `trueaxis run` of the job of a machine of several axes. @returns the exit code

@@ -31,8 +31,8 @@ bool in_colour() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") 
 const char* colour_of(const std::string& line) {
   const auto starts = [&](const char* with) { return line.starts_with(with); };
   if (starts("GO with") || starts("NOT PROVEN") || starts("EFFECTS")) return "\x1b[1;33m";
-  if (starts("GO") || starts("IDEAL") || starts("DONE")) return "\x1b[1;32m";
-  if (starts("NO-GO") || starts("UNEXPLAINED") || starts("NOT DIAGNOSED")) return "\x1b[1;31m";
+  if (starts("GO") || starts("IDEAL") || starts("DONE") || starts("FITTED")) return "\x1b[1;32m";
+  if (starts("NO-GO") || starts("UNEXPLAINED") || starts("NOT ")) return "\x1b[1;31m";
   return "\x1b[1m";
 }
 

@@ -9,12 +9,14 @@
 #include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
+#include "cli/results.hpp"
 #include "correct/files/table_files.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "fit/files/fit_files.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "job/conclude.hpp"
+#include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/files/job_words.hpp"
 #include "trueaxis/error.hpp"
@@ -26,7 +28,8 @@ struct CorrectArguments {
   std::string fit, target, table, diagnosis;
   StreamOptions stream;  ///< path empty: as the diagnosis names it
   double ball_radius_mm = 0.0;
-  bool ideal = false, preview = false, force = false, check = false;
+  Results results;
+  bool ideal = false, preview = false, check = false;
 };
 
 constexpr const char* rests_on_ideal =
@@ -118,7 +121,7 @@ IdentifiedJob result_of(const CorrectArguments& options, Job job, Identified fou
 }
 
 int execute(const CorrectArguments& options) {
-  Outputs outputs(options.force);
+  Outputs outputs(options.results.force);
   Identified found = identified(options);
   IdentifiedJob job =
       result_of(options, read_target_toml(options.target), std::move(found), outputs);
@@ -126,20 +129,18 @@ int execute(const CorrectArguments& options) {
   outputs.reads(options.target);
   if (!options.diagnosis.empty()) outputs.reads(options.diagnosis);
   outputs.may_write(options.table, "trueaxis.correction");
+  options.results.name_to(outputs);
   outputs.check();
   if (options.check) return checked(outputs, "correct the target for the axis of " + options.fit);
   const JobResult result = of_file(options.target, [&] { return conclude(std::move(job)); });
   const Verdict& verdict = result.verdict;
   const bool cut = verdict.go() && result.correction;
-  if (!options.preview) {
-    if (cut) {
-      outputs.write(options.table, correction_csv(*result.correction));
-    } else {
-      outputs.remove_earlier(options.table);  // one stands there only when it may be run
-    }
-    outputs.commit();
-  }
-  const bool printed = !options.preview && options.table == "-";
+  options.results.write(outputs, "--json", [&] { return job_json(result, {}); });
+  if (!options.preview && cut) outputs.write(options.table, correction_csv(*result.correction));
+  if (!options.preview && !cut)
+    outputs.remove_earlier(options.table);  // one is there only when it may be run
+  outputs.commit();
+  const bool printed = options.results.printed() || (!options.preview && options.table == "-");
   if (!printed && result.correction)
     std::cout << verdict_line(result) << '\n' << correction_preview(*result.correction);
   if (options.ideal) (printed ? std::cerr : std::cout) << rests_on_ideal;
@@ -174,11 +175,14 @@ void add_table(CLI::App* command, int& exit_code) {
   options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
   StreamOptions::add_ball_radius(*command, options->ball_radius_mm);
-  add_force(*command, options->force);
+  add_json(*command, options->results, "trueaxis.run");
+  add_force(*command, options->results.force);
   add_check(*command, options->check);
   command->callback([options, &exit_code] {
     if (!options->preview && options->table.empty())
       throw CLI::RequiredError("-o TABLE or --preview");
+    if (options->table == "-" && options->results.printed())
+      throw CLI::ValidationError("--json", "cannot go where --output goes");
     exit_code = execute(*options);
   });
 }

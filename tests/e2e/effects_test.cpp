@@ -49,7 +49,7 @@ TEST(EffectsCommand, ListsTheKeysOfAScenariosEffect) {
   for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
     const std::string id(kind.id);
     if (find_effect(id) == nullptr) continue;
-    const auto json = nlohmann::json::parse(trueaxis_command("effects " + id + " --json").output);
+    const auto json = nlohmann::json::parse(trueaxis_command("effects " + id + " --json -").output);
     const std::string page = trueaxis_command("effects " + id).output;
     std::string text = "[[effect]]\nid = \"" + id + "\"\n";
     for (const auto& key : json.at("effects").at(0).at("scenario_keys")) {
@@ -69,13 +69,13 @@ TEST(EffectsCommand, ListsTheKeysOfAScenariosEffect) {
 }
 
 TEST(EffectsCommand, JsonIsInTheUnitsOfTheContract) {
-  const CommandResult all = trueaxis_command("effects --json");
+  const CommandResult all = trueaxis_command("effects --json -");
   ASSERT_EQ(all.exit_code, 0);
   const auto json = nlohmann::json::parse(all.output);
   EXPECT_EQ(json.at("schema"), "trueaxis.effects/1");
   EXPECT_EQ(json.at("effects").size(), effect_catalogue().size());
   EXPECT_EQ(json.at("measurements").size(), separators().size());
-  const auto one = nlohmann::json::parse(trueaxis_command("effects probe.tilt --json").output);
+  const auto one = nlohmann::json::parse(trueaxis_command("effects probe.tilt --json -").output);
   ASSERT_EQ(one.at("effects").size(), 1u);
   const auto tilt = one.at("effects").at(0).at("parameters").at(0);
   EXPECT_EQ(tilt.at("unit"), "deg");

@@ -91,7 +91,7 @@ TEST_F(SeatsCommand, RunTakesEverySeatOfAStream) {
   ASSERT_EQ(found.at("references").size(), 2u);
   EXPECT_EQ(found.at("references")[0].at("fit").at("surface"), "cylinder");
   expect_distance(found);
-  for (const char* said : {"seat   A, a cylinder", "seat   B, a cylinder", "tap    high spot",
+  for (const char* said : {"seat   A, a cylinder", "seat   B, a cylinder", "tap    A runs out",
                            "ecc  ", "apart  B from A: ", "coax   ", "a shoulder"})
     EXPECT_TRUE(contains(done.out, said)) << said << '\n' << done.out;
   EXPECT_TRUE(contains(read_text(folder_ / "out/report.html"), "\"seats_apart\""));

@@ -36,7 +36,7 @@ std::string finding_screen(const MachineFinding& finding) {
     std::vector<std::string> rivals;
     for (const Rival& rival : finding.rivals)
       rivals.push_back(rival.effect + " (" + layout::probability(rival.probability) + ")");
-    text += "; not told from " + some_of(rivals, most_rivals) +
+    text += "; not distinguishable from " + some_of(rivals, most_rivals) +
             (!finding.separate_with || finding.separate_with->plan.empty()
                  ? ", and no plan tells them apart"
                  : ", plan " + finding.separate_with->plan + " tells");
@@ -69,7 +69,8 @@ std::string calibration_screen(const Calibration& c) {
   std::string text;
   if (c.equations > 0)
     text = fmt::format(
-        "DONE: {} errors of the machine found, RMS of {} numbers {} -> {}, noise {} ({})\n",
+        "DONE: {} errors of the machine found, RMS of {} numbers {} -> {}, noise {} ({})\n"
+        "next   trueaxis machine diagnose with the same data: names further errors\n",
         c.parameters.size(), c.equations, um(c.rms_before_mm), um(c.rms_after_mm), um(c.noise_mm),
         to_string(c.noise_basis));
   else
@@ -88,9 +89,7 @@ std::string calibration_screen(const Calibration& c) {
   if (!open.empty())
     text += fmt::format("open   not determined and left as given: {}; --verbose says why\n",
                         fmt::join(open, ", "));
-  return text + (c.equations > 0 ? "next   trueaxis machine diagnose with the same data: errors "
-                                   "beside these, by name\n"
-                                 : "");
+  return text;
 }
 
 std::string machine_findings_screen(const MachineDiagnosis& d) {
@@ -109,28 +108,28 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
   std::vector<std::string> hidden;
   for (const MachineNotObservable& one : d.not_observable) hidden.push_back(one.effect);
   if (!hidden.empty())
-    text += "hidden not seen at these positions: " + some_of(hidden, most_hidden) + "\n";
+    text += "hidden invisible at these positions: " + some_of(hidden, most_hidden) + "\n";
   return text;
 }
 
 std::string machine_diagnosis_line(const MachineDiagnosis& d, const char* arrow) {
   const std::size_t found = d.findings.size(), unexplained = d.unexplained.size();
   std::string text = d.verdict == DiagnosisVerdict::ideal
-                         ? "IDEAL: nothing was found beside the location errors"
-                         : fmt::format("{}: {} error{} found beside the location errors",
+                         ? "IDEAL: no error found in addition to the location errors"
+                         : fmt::format("{}: {} error{} found in addition to the location errors",
                                        unexplained > 0 ? "UNEXPLAINED" : "EFFECTS",
                                        found + unexplained, found + unexplained == 1 ? "" : "s");
   if (unexplained > 0) text += fmt::format(", {} without a known cause", unexplained);
   const Explained& gain = d.gain;
   if (d.blocks > 0 || gain.rms_before_mm > 0.0)
-    text += fmt::format("; RMS {} {} {}, held out {} {} {}", um(gain.rms_before_mm), arrow,
+    text += fmt::format("; RMS {} {} {}, cross-validated {} {} {}", um(gain.rms_before_mm), arrow,
                         um(gain.rms_after_mm), um(gain.held_out_before_mm.value), arrow,
                         um(gain.held_out_after_mm.value));
   return text;
 }
 
 std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
-  return machine_diagnosis_line(d, "->") + "\n" + machine_findings_screen(d);
+  return machine_diagnosis_line(d, "->") + "\n" + next_screen(d) + machine_findings_screen(d);
 }
 
 std::string next_plan_text(const MachineDiagnosis& d, PlanBy by) {

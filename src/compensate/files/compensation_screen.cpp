@@ -55,7 +55,7 @@ std::string degrees(double angle_rad) {
 std::string blocks_screen(const ProgramCompensation& result) {
   std::string text;
   if (!result.singular.empty())
-    text += fmt::format("pole   {} whose direction is left off, the first in line {}\n",
+    text += fmt::format("pole   {} whose direction is not corrected, the first in line {}\n",
                         counted(result.singular.size(), "block"), result.singular.front().line);
   return text;
 }
@@ -68,7 +68,7 @@ std::string next_screen_of(const ProgramCompensation& result, const Compensation
   if (!options.tolerance_mm && between_mm > std::max(1e-3, 5.0 * result.after.position.value))
     return "next   --tolerance-um cuts the moves in pieces: between their ends the tip is off by " +
            um(between_mm) + "\n";
-  return "next   run the new program in place of the old one; trueaxis machine simulate cuts it "
+  return "next   Run the new program instead of the old one; trueaxis machine simulate tests it "
          "first\n";
 }
 
@@ -82,6 +82,7 @@ std::string compensation_screen(const ProgramCompensation& result,
       "DONE: tip off by {} at most on the whole path with the new program, {} without it (line "
       "{})\n",
       um(after.value), um(before.value), before.line);
+  text += next_screen_of(result, options);
   text += "ends   off by " + um(result.after.position.value) + " at the ends of blocks, " +
           um(result.before.position.value) + " without it\n";
   text += "path   off by " + um(result.between_after.value) + " between the ends of blocks, " +
@@ -90,9 +91,8 @@ std::string compensation_screen(const ProgramCompensation& result,
           degrees(result.before.direction.value) + " without it\n";
   if (result.u_tip)
     text += "U      of the tip " + um(2.0 * result.u_tip->value) +
-            " (k = 2), with what is not known of where the part stands\n";
-  return text + changes_screen(result) + causes_screen(result) + blocks_screen(result) +
-         next_screen_of(result, options);
+            " (k = 2), the uncertainty of the part's place included\n";
+  return text + changes_screen(result) + causes_screen(result) + blocks_screen(result);
 }
 
 }  // namespace trueaxis

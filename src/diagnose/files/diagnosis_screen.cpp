@@ -30,14 +30,16 @@ std::string verdict_line(const Diagnosis& d) {
                                          : d.noise.masked.empty()             ? d.baseline.rms_mm
                                                                               : d.extended.rms_mm),
                                       um(d.noise.sigma_mm));
+  const std::string known = axis_accuracy(d.extended);
+  const std::string accuracy = known.empty() ? "" : ", " + known;
   if (d.verdict == DiagnosisVerdict::ideal)
-    return std::string("IDEAL: the readings show a ") + to_string(d.baseline.surface) +
-           " and nothing else; " + rms;
+    return std::string("IDEAL: no deviation from an ideal ") + to_string(d.baseline.surface) +
+           " detected" + accuracy + "; " + rms;
   std::string text = d.verdict == DiagnosisVerdict::effects ? "EFFECTS: " : "UNEXPLAINED: ";
-  text += fmt::format("{} thing{} that the ideal {} has not", found + unexplained,
+  text += fmt::format("{} deviation{} from an ideal {}", found + unexplained,
                       found + unexplained == 1 ? "" : "s", to_string(d.baseline.surface));
   if (unexplained > 0) text += fmt::format(", {} without a known cause", unexplained);
-  return text + "; " + rms;
+  return text + accuracy + "; " + rms;
 }
 
 }  // namespace
@@ -103,7 +105,8 @@ std::string excluded_screen(const Diagnosis& d) {
 
 std::string diagnosis_screen(const Diagnosis& d, const std::string& form) {
   if (d.baseline.status != FitStatus::converged) return line("", diagnosis_line(d));
-  std::string text = line("", verdict_line(d));
+  std::string text =
+      line("", verdict_line(d)) + tap_screen(d.extended, to_string(d.extended.surface));
   for (const std::string& note : d.baseline.input_notes) text += line("input  ", note);
   const bool tilt_alone = d.extended.surface == SurfaceKind::plane && d.extended.axis_known();
   text += findings_screen(d, most_findings) + (tilt_alone ? "" : form) + axis_screen(d.extended) +
@@ -118,8 +121,7 @@ std::string diagnosis_screen(const Diagnosis& d, const std::string& form) {
   else if (!d.next.plan.empty())
     text +=
         line("next   ",
-             fmt::format("{}: {:.0f} min, and then the right cause is named with a probability "
-                         "of {}",
+             fmt::format("{}: {:.0f} min, then the right cause is named with a probability of {}",
                          d.next.what, std::ceil(d.next.minutes), probability(d.next.power_after)));
   return text + limit_screen(d) + (tilt_alone ? form : "");
 }

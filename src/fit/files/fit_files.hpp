@@ -39,7 +39,7 @@ std::string fit_text(const FitResult& result);
 std::string fit_screen(const FitResult& result);
 
 /// "axis   x 48.19 µm, y -31.01 µm, U 0.35 µm at Z 0 mm" at both ends of the readings; of a plane
-/// its tilt; empty where nothing was fitted. With tap_text().
+/// its tilt; empty if nothing was fitted.
 std::string axis_screen(const FitResult& result);
 
 /// For those without a servo: at which C the part stands out towards the probe, at the end that is
@@ -47,5 +47,13 @@ std::string axis_screen(const FitResult& result);
 /// behind meets what stands out half a turn later. Empty where the offset is within twice its U, of
 /// a plane, and where nothing was fitted.
 std::string tap_text(const FitResult& result);
+
+/// "tap    The cone runs out 129 µm at Z 0 mm: tap at C = 16° by 64.7 µm", the line of a screen
+/// that a machinist acts on; empty as tap_text().
+std::string tap_screen(const FitResult& result, const std::string& name);
+
+/// "axis known to ± 0.88 µm (k = 2)", at the end that is known less; "axis not known"; for a plane
+/// its tilt; empty for a surface without an axis.
+std::string axis_accuracy(const FitResult& result);
 
 }  // namespace trueaxis

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <optional>
 
 #include "base/counted.hpp"
 #include "base/hundredths.hpp"
@@ -49,8 +51,14 @@ std::string why_unknown(const FitResult& fit) {
 
 }  // namespace
 
-std::string tap_text(const FitResult& fit) {
-  if (!fit.axis_known() || fit.surface == SurfaceKind::plane) return "";
+namespace {
+
+struct Tap {
+  double c_deg = 0.0, off_mm = 0.0, z_mm = 0.0;
+};
+
+std::optional<Tap> tap_of(const FitResult& fit) {
+  if (!fit.axis_known() || fit.surface == SurfaceKind::plane) return std::nullopt;
   double farthest_mm = 0.0, at_z_mm = 0.0, towards_rad = 0.0;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
     const auto at = fit.axis.axis.at(z);
@@ -60,12 +68,45 @@ std::string tap_text(const FitResult& fit) {
     at_z_mm = z;
     towards_rad = std::atan2(at[1], at[0]);
   }
-  if (!(farthest_mm > 2.0 * fit.coverage_factor * fit.axis.u_at(at_z_mm))) return "";
+  if (!(farthest_mm > 2.0 * fit.coverage_factor * fit.axis.u_at(at_z_mm))) return std::nullopt;
   const bool rear = !fit.set_ups.empty() && fit.set_ups.back().side == Root::rear;
   const double c_deg =
       std::fmod(std::round(towards_rad / rad_per_deg) + (rear ? 540.0 : 360.0), 360.0);
-  return fmt::format("high spot at C = {:.0f}°, run-out {} at Z {:.6g} mm: tap there by {}", c_deg,
-                     um(2.0 * farthest_mm), hundredths(at_z_mm), um(farthest_mm));
+  return Tap{c_deg, farthest_mm, hundredths(at_z_mm)};
+}
+
+}  // namespace
+
+std::string tap_text(const FitResult& fit) {
+  const auto tap = tap_of(fit);
+  return tap ? fmt::format("high spot at C = {:.0f}°, run-out {} at Z {:.6g} mm: tap there by {}",
+                           tap->c_deg, um(2.0 * tap->off_mm), tap->z_mm, um(tap->off_mm))
+             : "";
+}
+
+std::string tap_screen(const FitResult& fit, const std::string& name) {
+  const auto tap = tap_of(fit);
+  // "A" is a name, "cone seat" a word.
+  const bool word = !name.empty() && std::islower(static_cast<unsigned char>(name.front())) != 0;
+  return tap ? fmt::format("tap    {}{} runs out {} at Z {:.6g} mm: tap at C = {:.0f}° by {}\n",
+                           word ? "The " : "", name, um(2.0 * tap->off_mm), tap->z_mm, tap->c_deg,
+                           um(tap->off_mm))
+             : "";
+}
+
+std::string axis_accuracy(const FitResult& fit) {
+  if (!fit.axis_known()) return "axis not known";
+  if (fit.surface == SurfaceKind::sphere) return "";
+  if (fit.surface == SurfaceKind::plane) {
+    const std::string tilt = parameter_line(fit, "tilt", "tilt");
+    return tilt.empty() ? "" : "tilt " + tilt.substr(7, tilt.size() - 8);
+  }
+  const double U_um =
+      fit.coverage_factor *
+      std::max(fit.axis.u_at(fit.position_min_mm), fit.axis.u_at(fit.position_max_mm)) / mm_per_um;
+  return std::isfinite(U_um) ? fmt::format("axis known to ± {:.{}f} µm (k = {:g})", U_um,
+                                           decimals_of(U_um, 0), fit.coverage_factor)
+                             : "axis without an uncertainty";
 }
 
 std::string axis_screen(const FitResult& fit) {
@@ -90,19 +131,24 @@ std::string axis_screen(const FitResult& fit) {
     }
     text += fmt::format(" at Z {:.6g} mm\n", hundredths(z));
   }
-  if (const std::string tap = tap_text(fit); !tap.empty()) text += "tap    " + tap + "\n";
   return text;
 }
 
 std::string fit_screen(const FitResult& result) {
-  std::string text =
-      fmt::format("{} of {}: {}, residuals {} RMS{}\n", to_string(result.surface), result.source,
-                  counted(result.points, "reading"), um(result.rms_mm), rejected_text(result));
-  if (result.status != FitStatus::converged) {
+  const bool converged = result.status == FitStatus::converged;
+  const std::string accuracy = converged ? axis_accuracy(result) : "";
+  std::string text = fmt::format("{}: {}{}{}; {} of {}, residuals {} RMS{}\n",
+                                 !converged            ? "NOT FITTED"
+                                 : result.axis_known() ? "FITTED"
+                                                       : "NOT KNOWN",
+                                 to_string(result.surface), accuracy.empty() ? "" : ", ", accuracy,
+                                 counted(result.points, "reading"), result.source,
+                                 um(result.rms_mm), rejected_text(result));
+  if (!converged) {
     for (const std::string& note : result.input_notes) text += "input  " + note + "\n";
     return text + "why    " + result.message + "\n";
   }
-  text += axis_screen(result);
+  text += tap_screen(result, to_string(result.surface)) + axis_screen(result);
   if (result.surface == SurfaceKind::cone) {
     text += parameter_line(result, "radius_mid", "radius") +
             parameter_line(result, "half_angle", "angle");

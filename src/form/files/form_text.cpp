@@ -33,6 +33,8 @@ std::string cell(const FormValue* one, double k) {
   if (one->estimate.determined() && scale * k * one->estimate.u < least_shown)
     return fmt::format("{:.4f} ± < {:g}", scale * one->estimate.value, least_shown);
   if (one->unresolved) return fmt::format("< {:.2g}", scale * one->estimate.interval->back());
+  if (one->estimate.determined() && one->estimate.value <= k * one->estimate.u)
+    return fmt::format("< {:.2g}", scale * (one->estimate.value + k * one->estimate.u));
   return layout::plus_minus(one->estimate, k, scale, "");
 }
 
@@ -57,7 +59,7 @@ std::string heading(const FormResult& result) {
   if (result.surface)
     return fmt::format(
         "{}, one surface of {} readings at {} stations; values in µm ± U (k = {:g}), < a "
-        "bound (95 %)\n",
+        "bound (95 % confidence)\n",
         filter_text(result.options), result.surface->readings, result.sections.size(),
         result.options.coverage_factor);
   std::string text =
@@ -65,7 +67,8 @@ std::string heading(const FormResult& result) {
                   result.sections.size(), result.sections.size() == 1 ? "" : "s", first.readings);
   if (first.points_per_cycle > 0.0)
     text += fmt::format(", {:.3g} a wave at the cut-off", first.points_per_cycle);
-  return text + fmt::format("; values in µm ± U (k = {:g})\n", result.options.coverage_factor);
+  return text + fmt::format("; values in µm ± U (k = {:g}), < a bound (95 % confidence)\n",
+                            result.options.coverage_factor);
 }
 
 /// A table of one kind of value about several references, a row a name.
@@ -197,7 +200,7 @@ std::string harmonics_table(const FormResult& result) {
 }  // namespace
 
 std::string form_value_text(const FormValue& one, double k, double scale, const std::string& unit) {
-  if (!one.unresolved) return layout::plus_minus(one.estimate, k, scale, unit);
+  if (!one.unresolved) return layout::size_plus_minus(one.estimate, k, scale, unit);
   return fmt::format("below {:.2g} {} (95 % confidence)", scale * one.estimate.interval->back(),
                      unit);
 }

@@ -33,7 +33,7 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
   const auto& diagnosis = result.diagnoses[i];
   const bool ideal = diagnosis && diagnosis->verdict == DiagnosisVerdict::ideal;
   text += ", residuals " + um(diagnosis && !ideal ? diagnosis->gain.rms_after_mm : fit.rms_mm) +
-          " RMS" + (ideal ? ", and nothing seen that the ideal surface has not" : "") + "\n";
+          " RMS" + (ideal ? ", no deviation from an ideal " + surface + " detected" : "") + "\n";
   for (const std::string& note : result.fits[i].input_notes) text += "input  " + note + "\n";
   if (diagnosis) text += excluded_screen(*diagnosis);
   if (diagnosis && !ideal) text += findings_screen(*diagnosis, most_findings);
@@ -49,8 +49,8 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
 }
 
 std::string tool_screen(const ActuatorMargin& margin) {
-  return fmt::format("tool   stroke {:.3g} of {:.3g} µm, {}\n", margin.stroke_used_mm / mm_per_um,
-                     margin.stroke_available_mm / mm_per_um,
+  return fmt::format("tool   The table uses {:.3g} of {:.3g} µm stroke, {}\n",
+                     margin.stroke_used_mm / mm_per_um, margin.stroke_available_mm / mm_per_um,
                      margin.follows
                          ? "the actuator follows to " + (margin.following_mm < least_mm
                                                              ? "less than " + um(least_mm)
@@ -92,10 +92,32 @@ std::string next_screen(const JobResult& result) {
   return "";
 }
 
+bool asks_for_proof(const JobResult& result) { return !result.verdict.what_would_prove().empty(); }
+
+/// How well the axis is known of the one reference of a job without a cut.
+std::string accuracy(const JobResult& result) {
+  if (result.job.target || result.fits.size() != 1) return "";
+  const std::string known = axis_accuracy(fit_used(result, 0));
+  return known.empty() ? "" : "; " + known;
+}
+
+/// What to do now: tap the part, measure what would prove it, run the table.
+std::string action_screen(const JobResult& result) {
+  std::string text;
+  if (asks_for_proof(result)) text += next_screen(result);
+  if (result.correction) return text + tool_screen(result.correction->margin);
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    const std::string &name = result.job.references[i].name,
+                      surface = to_string(fit_used(result, i).surface);
+    text += tap_screen(fit_used(result, i), name.empty() ? surface : name);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string job_screen(const JobResult& result) {
-  std::string text = verdict_line(result) + "\n";
+  std::string text = verdict_line(result) + accuracy(result) + "\n" + action_screen(result);
   for (const Reason& reservation : result.verdict.reservations)
     text += "but    " + words_of(reservation, result) + "\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
@@ -106,12 +128,9 @@ std::string job_screen(const JobResult& result) {
   text += datum_screen(result);
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion " + inclusion_text(inclusion);
-  if (result.correction) {
-    text += tool_screen(result.correction->margin);
-    if (const std::string rows = coarse_rows_words(result); !rows.empty())
-      text += "rows   " + rows + "\n";
-  }
-  return text + next_screen(result);
+  if (const std::string rows = result.correction ? coarse_rows_words(result) : ""; !rows.empty())
+    text += "rows   " + rows + "\n";
+  return text + (asks_for_proof(result) ? "" : next_screen(result));
 }
 
 }  // namespace trueaxis

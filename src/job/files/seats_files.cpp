@@ -44,7 +44,7 @@ std::array<AxisOffset, 2> ends_of(const FitResult& fit, const AxisEstimate& axis
 }
 
 std::string um_pm(double value_mm, double u_mm, double k) {
-  return layout::plus_minus({value_mm, u_mm, "mm", ""}, k, 1.0 / mm_per_um, "µm");
+  return layout::size_plus_minus({value_mm, u_mm, "mm", ""}, k, 1.0 / mm_per_um, "µm");
 }
 
 std::string z_text(double z_mm) { return fmt::format("Z {:.6g} mm", hundredths(z_mm)); }
@@ -89,7 +89,8 @@ std::string seat_axis_screen(const JobResult& result, std::size_t reference) {
   for (std::size_t e = 0; e < 2; ++e)
     text += (e == 0 ? "" : ", ") + um_pm(ends[e].size_mm(), ends[e].u_mm, fit.coverage_factor) +
             " at " + z_text(ends[e].z_mm);
-  return text + ", tilt " + layout::plus_minus(tilt_of(axis), fit.coverage_factor, 1.0, "°") + "\n";
+  return text + ", tilt " + layout::size_plus_minus(tilt_of(axis), fit.coverage_factor, 1.0, "°") +
+         "\n";
 }
 
 std::string seats_apart_screen(const JobResult& result) {
@@ -106,7 +107,8 @@ std::string seats_apart_screen(const JobResult& result) {
       return um_pm(d.coaxiality_mm(s), d.u_coaxiality_mm(s), k);
     };
     text += "apart  " + b + " from " + a + ": " + at(0) + "; " + at(1) + "; angle " +
-            layout::plus_minus({1e3 * d.tilt_rad, 1e3 * d.u_tilt_rad, "mrad", ""}, k, 1.0, "mrad") +
+            layout::size_plus_minus({1e3 * d.tilt_rad, 1e3 * d.u_tilt_rad, "mrad", ""}, k, 1.0,
+                                    "mrad") +
             "\n";
     text += "coax   " + coaxiality(1) + " of " + b + " with " + a + " as datum, " + coaxiality(0) +
             " of " + a + " with " + b + " as datum (axes over the probed lengths)\n";

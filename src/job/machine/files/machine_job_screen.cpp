@@ -11,17 +11,26 @@ namespace trueaxis {
 
 std::string machine_job_screen(const MachineJobResult& result) {
   const MachineJobVerdict& verdict = result.verdict;
-  std::string text = machine_verdict_line(verdict) + "\n";
+  std::string text =
+      machine_verdict_line(verdict) + "\nnext   " + machine_next_words(verdict) + "\n";
   for (const Reason& reservation : verdict.reservations)
     text += "but    " + words_of(reservation) + "\n";
   text += machine_findings_screen(result.diagnosis);
   if (!result.tips.empty()) {
     const double U_um = verdict.U_mm / mm_per_um;
     const int decimals = decimals_of(U_um, 0);
-    text += fmt::format(
-        "tip    off by {:.{}f} ± {:.{}f} µm with the new program (U, k = 2, without where the part "
-        "stands)\n",
-        verdict.path_after_mm() / mm_per_um, decimals, U_um, decimals);
+    const double off_um = verdict.path_after_mm() / mm_per_um;
+    if (off_um <= U_um)
+      text += fmt::format(
+          "tip    off by less than {:.2g} µm with the new program (95 % confidence; the place of "
+          "the part excluded)\n",
+          off_um + U_um);
+    else
+      text += fmt::format(
+          "tip    off by {:.{}f} ± {:.{}f} µm with the new program (U, k = 2; the place of the "
+          "part "
+          "excluded)\n",
+          off_um, decimals, U_um, decimals);
   }
   if (result.compensation && result.compensation->unreachable.empty())
     text += changes_screen(*result.compensation);
@@ -29,7 +38,7 @@ std::string machine_job_screen(const MachineJobResult& result) {
     remark.parts.clear();  // what it means in detail
     text += "note   " + words_of(remark) + "\n";
   }
-  return text + "next   " + machine_next_words(verdict) + "\n";
+  return text;
 }
 
 }  // namespace trueaxis
