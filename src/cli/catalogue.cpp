@@ -211,7 +211,7 @@ void add_commands(CLI::App& app, int& exit_code) {
     entry.add(command, exit_code);
     // What prints all it has takes the option as well: a script may give it to every command.
     if (command->get_option_no_throw("--verbose") == nullptr)
-      command->add_flag("-v,--verbose", "print all details (always so here)");
+      command->add_flag("-v,--verbose")->description("print all details (always so here)");
   }
 }
 
