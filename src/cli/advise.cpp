@@ -107,7 +107,7 @@ int advise_job(const AdviseArguments& options) {
   return worst;
 }
 
-/// Options of the one beside the other would be passed over in silence.
+/// Options for the one would have no effect on the other.
 bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
   const bool machine = !options.machine.machine.machine.empty();
   if (!machine && options.data.empty()) throw CLI::RequiredError("stream");

@@ -27,13 +27,13 @@ void add_commands(CLI::App& app, int& exit_code);
 /// The entry of a command, nullptr for the program and for a first word of two.
 const CommandEntry* entry_of(const CLI::App& command);
 
-/// The words behind "trueaxis": "machine calibrate".
+/// The words after "trueaxis": "machine calibrate".
 std::string full_name(const CLI::App& command);
 
 /// Help of the program, of a first word or of a command.
 std::string help_of(const CLI::App* command, const std::string& name, CLI::AppFormatMode mode);
 
-/// What somebody does who typed no command.
+/// What to do next if no command was typed.
 std::string first_steps();
 
 }  // namespace trueaxis::cli

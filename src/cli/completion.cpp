@@ -14,7 +14,7 @@
 namespace trueaxis::cli {
 namespace {
 
-/// Of the word behind an option that takes one of a few, or any.
+/// Cases for the word after an option that takes a value.
 std::string values_of(const DescribedCommand& command) {
   std::string cases, any;
   for (const DescribedOption& option : command.options) {
@@ -81,7 +81,7 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
   script +=
       "_trueaxis() {\n"
       "  local now=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-      "  local name=${COMP_WORDS[1]} behind=1 value=\n"
+      "  local name=${COMP_WORDS[1]} last=1 value=\n"
       "  local words='" +
       names_of(commands, "") +
       " --help --version'\n"
@@ -90,11 +90,11 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
   for (const std::string& word : firsts)
     script += fmt::format(
         "    {}) if [ \"$COMP_CWORD\" -gt 1 ]; then words='{} --help'; fi\n"
-        "      name=\"$name ${{COMP_WORDS[2]}}\" behind=2 ;;\n",
+        "      name=\"$name ${{COMP_WORDS[2]}}\" last=2 ;;\n",
         word, names_of(commands, word));
   script +=
       "  esac\n"
-      "  if [ \"$COMP_CWORD\" -gt \"$behind\" ]; then\n"
+      "  if [ \"$COMP_CWORD\" -gt \"$last\" ]; then\n"
       "    words=\n"
       "    case $name in\n";
   for (const DescribedCommand& command : commands) script += case_of(command);

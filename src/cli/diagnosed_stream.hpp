@@ -10,7 +10,7 @@
 namespace trueaxis::cli {
 
 /// Where the stream of a diagnosis is: as `said`, else as the diagnosis names it, from here or
-/// beside the diagnosis. @throws InputError when it is at none of these
+/// next to the diagnosis. @throws InputError when it is at none of these
 std::string diagnosed_stream_path(const std::string& said, const std::string& diagnosis_path,
                                   const Diagnosis& diagnosis);
 

@@ -26,7 +26,7 @@ struct ErrorsArguments {
   bool check = false;
 };
 
-/// "X=50,A=-35": mm and degrees, axes that are left out at 0.
+/// "X=50,A=-35": mm and degrees, other axes at 0.
 AxisPositions positions_of(const std::string& text, const Machine& machine) {
   AxisPositions axes{};
   std::array<bool, axis_count> there{};
@@ -42,7 +42,7 @@ AxisPositions positions_of(const std::string& text, const Machine& machine) {
         !CLI::detail::lexical_cast(part.substr(2), value) || !std::isfinite(value))
       throw CLI::ValidationError(
           "--at",
-          '"' + part + "\" is no position of an axis of the machine, such as X=50 or A=-35");
+          '"' + part + "\" is not a position of an axis of the machine, such as X=50 or A=-35");
     there[letter] = true;
     axes[letter] = letter >= 3 ? value * rad_per_deg : value;
   }

@@ -31,8 +31,8 @@ int guarded(const std::function<int()>& run);
 /// its axis is not known, said on standard error.
 int exit_code_of(const FitResult& fit, const std::string& source);
 
-/// `--check` of a command that computes: everything is read, every place of a result is looked at,
-/// nothing is computed and nothing written.
+/// `--check`: the command reads everything and looks at every place of a result. It computes and
+/// writes nothing.
 CLI::Option* add_check(CLI::App& command, bool& check);
 
 /// Says what a command would do ("fit a cone to 1469 readings"), what it has read and what it would
@@ -44,7 +44,7 @@ int checked(const Outputs& outputs, const std::string& would);
 void all_of(std::initializer_list<std::function<void()>> steps);
 
 /// A program cannot say that TrueAxis wrote it, for all its bytes are the user's: what may be
-/// `program`, compensated before, is replaced. @throws InputError where another program stands
+/// `program`, compensated before, is replaced. @throws InputError if another program is there
 void expect_no_other_program(const std::string& path, const std::string& program, bool force);
 
 /// @param left_by_all_mm as of `likely_mistake`

@@ -28,7 +28,7 @@ struct ImportArguments {
   bool check = false;
 };
 
-/// Beside the stream, with another ending.
+/// Next to the stream, with another ending.
 std::string job_place(const ImportArguments& options) {
   if (!options.job.empty() || options.output == "-") return options.job;
   return std::filesystem::path(options.output).replace_extension(".toml").string();

@@ -10,7 +10,7 @@
 
 namespace trueaxis::cli {
 
-/// What `machine diagnose` and `advise --machine` are told.
+/// Options of `machine diagnose` and `advise --machine`.
 struct MachineDiagnosed {
   MachineOptions machine;
   std::vector<std::string> data;  ///< measurements; none: a plan before any
@@ -28,7 +28,7 @@ struct MachineDiagnosed {
   int advise(const Results& results) const;
 };
 
-/// That nothing of a machine stands beside a stream. @throws CLI::ValidationError
+/// No option for a machine goes with a stream. @throws CLI::ValidationError
 void expect_one_stream(const CLI::App& command, std::size_t streams);
 
 /// The same of a machine's job: its measurements, what is known, and its program if it has one.

@@ -12,7 +12,7 @@
 #include "machine/files/machine_toml.hpp"
 #include "trueaxis/machine.hpp"
 
-/// What the commands about machines are told alike.
+/// Options that the commands about machines share.
 namespace trueaxis::cli {
 
 struct MachineOptions {

@@ -18,7 +18,7 @@ std::vector<const CLI::App*> all_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// Why a word is no command, and which it may mean; empty where all are.
+/// Why a word is not a command, and which it may mean; empty if all are.
 std::string unknown_command(const CLI::App& app, const std::vector<std::string>& words,
                             std::size_t at = 0) {
   const auto below = all_of(app);

@@ -13,7 +13,7 @@
 namespace trueaxis::cli {
 namespace {
 
-/// Text for troff: no line of it is taken for a request, hyphens stay hyphens, and what is beyond
+/// Text for troff: no line of it becomes a request, hyphens stay hyphens, and what is beyond
 /// ASCII is named by its code point.
 std::string troff(const std::string& text) {
   std::string out;

@@ -33,7 +33,7 @@ constexpr std::array options{Renamed{"--ball-radius", "--ball-radius-mm"},
                              Renamed{"--k", "--coverage-factor"},
                              Renamed{"--distances", "--residuals"}};
 
-/// Whose machine was the first word that is no option.
+/// Their machine was the first word, without an option.
 constexpr std::array<std::string_view, 4> of_a_machine{"calibrate", "pose", "axes", "errors"};
 
 using Words = std::vector<std::string>;

@@ -9,7 +9,7 @@ namespace trueaxis::cli {
 
 struct NewNames {
   std::vector<std::string> words;  ///< the command line in today's names, without "trueaxis"
-  std::string notes;               ///< a line for each old name, empty: there was none
+  std::string notes;               ///< a line for each old name, empty: no old name
 };
 
 NewNames with_new_names(std::vector<std::string> words);

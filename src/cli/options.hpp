@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-/// What several commands check and are told alike.
+/// Options and checks that several commands share.
 namespace trueaxis::cli {
 
 /// Groups of options in a command's help; the rest is in "Options".
@@ -74,7 +74,7 @@ inline CLI::Option* add_threads(CLI::App& command, int& threads) {
 inline void add_false_alarm(CLI::App& command, double& level) {
   command
       .add_option("--false-alarm", level,
-                  "probability of a finding in data without a cause (default 0.01)")
+                  "probability of a false alarm in data without a cause (default 0.01)")
       ->check(number_in(0.0, true, 0.5, "a probability above 0, up to 0.5"));
 }
 
@@ -102,8 +102,8 @@ inline CLI::Option* add_force(CLI::App& command, bool& force) {
                           "replace files that TrueAxis did not write; never an input");
 }
 
-/// What has no effect in one use of a command would be passed over in silence.
-/// @throws CLI::ValidationError for an option that was given and is one of `names`, or is none
+/// An option without an effect in one use of a command is refused.
+/// @throws CLI::ValidationError for an option that was given and is one of `names`, or not
 inline void refuse_given(const CLI::App& command, bool one_of_these,
                          const std::vector<std::string>& names, const std::string& why) {
   for (const CLI::Option* option : command.get_options()) {

@@ -63,7 +63,7 @@ void print(const JobResult& result, const Outputs& outputs, const std::vector<Re
     if (!file.note.empty())
       std::cout << "file   " << outputs.in_folder(file.name) << ": " << file.note << '\n';
   std::cout << earlier.removed << "report " << outputs.in_folder("report.html")
-            << ", beside it result.json\n";
+            << ", next to it result.json\n";
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
 }
 

@@ -55,7 +55,7 @@ void write_all(Outputs& outputs, const MachineJobResult& result) {
   if (result.verdict.go())
     outputs.open(program).write(result.compensation->text);
   else
-    outputs.remove_earlier(program);  // one stands there only when it may be run
+    outputs.remove_earlier(program);  // one is there only if it may be run
 }
 
 std::string would_do(const MachineJob& job) {
@@ -101,7 +101,7 @@ int run_machine(MachineJob job, const RunMachineOptions& options) {
   else if (result.job.program)
     std::cout << "program not written: the verdict is " << to_string(result.verdict.decision)
               << '\n';
-  std::cout << "report  " << outputs.in_folder("report.html") << ", beside it "
+  std::cout << "report  " << outputs.in_folder("report.html") << ", next to it "
             << (result.implausible.empty() ? "errors.toml and " : "") << "the results as JSON\n";
   return result.verdict.go() ? done : refused;
 }

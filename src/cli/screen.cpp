@@ -15,7 +15,7 @@
 namespace trueaxis::cli {
 namespace {
 
-constexpr std::size_t text_column = 7;  // where the text of a line stands behind its word
+constexpr std::size_t text_column = 7;  // where the text of a line begins after its word
 
 std::size_t width_of_terminal() {
   winsize size{};

@@ -10,7 +10,7 @@
 
 namespace trueaxis::cli {
 
-/// What `trueaxis simulate` is told: a scenario, or the diagnosis of a part to be measured again.
+/// Options of `trueaxis simulate`: a scenario, or the diagnosis of a part to be measured again.
 struct SimulateOptions {
   std::string scenario, diagnosis, table, program;
   Results results;
@@ -23,8 +23,8 @@ struct SimulateOptions {
 /// `simulate --from DIAGNOSIS`.
 int simulate_from(SimulateOptions& options);
 
-/// A scenario with `[machine]`: what a machine of several axes would read of balls on its table, or
-/// what it cuts of a program and how far that is from what should be cut.
+/// A scenario with `[machine]`. The virtual machine reads balls on its table, or cuts a program and
+/// reports how far the cut is off.
 int simulate_machine(SimulateOptions& options);
 
 }  // namespace trueaxis::cli

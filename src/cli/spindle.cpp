@@ -46,7 +46,7 @@ struct SpindleArguments {
   }
 };
 
-/// "2-100"; empty where it is no range of orders from 2 to 1000.
+/// "2-100"; empty if it is not a range of orders from 2 to 1000.
 std::optional<OrderRange> parse_orders(const std::string& text) {
   const std::size_t dash = text.find('-');
   if (dash == std::string::npos) return std::nullopt;
@@ -73,7 +73,7 @@ int propose(const SpindleArguments& options, const OrderRange& orders) {
 
 bool is_job(const std::string& path) { return path.ends_with(".toml"); }
 
-/// A job says all of it: beside it neither streams nor what tells of them.
+/// A job states everything: no streams or options for them next to it.
 void expect_job_alone(const CLI::App& command, const SpindleArguments& options) {
   const auto job = std::ranges::find_if(options.streams, is_job);
   if (job == options.streams.end()) return;

@@ -18,7 +18,7 @@ using BlockRunner = std::function<void(const std::vector<study::Block>&,
 int check_sweep(const study::PublishedSweep& file, const std::string& folder, bool force);
 
 /// What the journal in `folder` leaves to do, done by `runner`; then sweep.csv, sweep.json,
-/// timing.csv, report.html and, beside published runs, published.json there, and the table on
+/// timing.csv, report.html and, for published runs, published.json there, and the table on
 /// standard output. Progress on a terminal. Without a folder no file is read or written.
 /// @throws InputError before anything is written where a place must not or cannot be written;
 ///         `force` as in Outputs

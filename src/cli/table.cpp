@@ -33,8 +33,8 @@ struct CorrectArguments {
 };
 
 constexpr const char* rests_on_ideal =
-    "ideal       the table rests on the ideal surface alone: slips, patterns and other causes were "
-    "not looked for\n";
+    "ideal       the table relies on the ideal fit alone: nothing looked for slips, patterns and "
+    "other causes\n";
 
 /// What run has of its reference when it comes to the target.
 struct Identified {
@@ -74,10 +74,11 @@ Identified identified(const CorrectArguments& options) {
       throw InputError(options.diagnosis,
                        "is of another stream or surface than " + options.fit + ": give its own");
   } else if (!options.ideal && out.fit.surface != SurfaceKind::plane) {
-    throw Refusal(options.fit +
-                  " is a fit without a diagnosis, so that nobody looked for slips and patterns: "
-                  "give what 'trueaxis diagnose --json' writes instead of it or with --diagnosis, "
-                  "or say --ideal to rest on the ideal surface");
+    throw Refusal(
+        options.fit +
+        " is a fit without a diagnosis, so nothing looked for slips and patterns. Give the "
+        "result of 'trueaxis diagnose --json' instead of it or with --diagnosis, or rely "
+        "on the ideal fit with --ideal");
   }
   return out;
 }

@@ -14,14 +14,14 @@ namespace trueaxis::cli {
 /// `--verbose` of a command that prints a screen.
 CLI::Option* add_verbose(CLI::App& command, bool& verbose);
 
-/// Prints a screen to standard output: its lines broken to the width of the terminal (100 where
-/// there is none, and the first is left whole there), below their text, and its first word, the
-/// verdict, in colour on a terminal where NO_COLOR is not set.
+/// Prints a screen to standard output, with its lines broken to the width of the terminal. Without
+/// a terminal the width is 100 and the first line stays whole. The verdict, its first word, has a
+/// colour on a terminal unless NO_COLOR is set.
 void print_screen(const std::string& text);
 
-/// What a command is at while it computes, for work without a count (Progress is of work with one):
-/// where standard error is a terminal, a line there from two seconds on, "diagnosing shaft.csv, 7
-/// s", gone at the end. Nothing elsewhere.
+/// What a command does while it computes, for work without a count (Progress is for work with one).
+/// If standard error is a terminal, it shows a line from two seconds on, "diagnosing shaft.csv, 7
+/// s", gone at the end.
 class Waiting {
  public:
   explicit Waiting(std::string doing);
@@ -38,7 +38,7 @@ class Waiting {
   std::thread thread_;
 };
 
-/// A line on standard error with share, rate and time left; nothing where that is no terminal.
+/// A line on standard error with share, rate and time left; nothing unless that is a terminal.
 class Progress {
  public:
   /// `before`: done by an earlier run.

@@ -192,11 +192,11 @@ TEST_F(CorrectCommand, AFitHasItsDiagnosisBesideItOrSaysThatItHasNone) {
     return text.erase(u, text.find('\n', u) - u);
   };
   EXPECT_EQ(without_u(ideal.out), without_u(table));
-  EXPECT_TRUE(contains(ideal.err, "rests on the ideal surface alone")) << ideal.err;
+  EXPECT_TRUE(contains(ideal.err, "relies on the ideal fit alone")) << ideal.err;
   const CommandStreams bare = command("table fit.json --target job.toml -o -");
   EXPECT_EQ(bare.exit_code, 1);
   EXPECT_EQ(bare.out, "");
-  EXPECT_TRUE(contains(bare.err, "nobody looked for slips")) << bare.err;
+  EXPECT_TRUE(contains(bare.err, "nothing looked for slips")) << bare.err;
 }
 
 TEST_F(CorrectCommand, TableIsThatOfTheWholeJob) {
