@@ -73,14 +73,6 @@ std::string plus_minus(const Estimate& estimate, double coverage_factor, double 
   return fmt::format("{0:.{2}f} ± {1:.{2}f}{3}", scale * estimate.value, U, decimals, behind);
 }
 
-std::string size_plus_minus(const Estimate& estimate, double coverage_factor, double scale,
-                            const std::string& unit) {
-  const double U = coverage_factor * estimate.u;
-  if (!estimate.determined() || !std::isfinite(U) || estimate.value > U)
-    return plus_minus(estimate, coverage_factor, scale, unit);
-  return fmt::format("below {:.2g} {} (95 % confidence)", scale * (estimate.value + U), unit);
-}
-
 std::string probability(double value) {
   if (!std::isfinite(value)) return "not determined";
   if (value < 0.001) return "< 0.001";

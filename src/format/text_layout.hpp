@@ -27,10 +27,6 @@ std::string um(double length_mm);
 std::string plus_minus(const Estimate& estimate, double coverage_factor, double scale,
                        const std::string& unit);
 
-/// The same of what is never below 0: "below 4.1 µm (95 % confidence)" if it is within its U.
-std::string size_plus_minus(const Estimate& estimate, double coverage_factor, double scale,
-                            const std::string& unit);
-
 /// "0.98", "< 0.001", "> 0.999", "not determined".
 std::string probability(double value);
 

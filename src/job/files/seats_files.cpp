@@ -6,6 +6,7 @@
 
 #include "base/hundredths.hpp"
 #include "fit/files/fit_files.hpp"
+#include "format/size_text.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/job_results.hpp"
 #include "job/references.hpp"

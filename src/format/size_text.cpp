@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "format/size_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "format/text_layout.hpp"
+
+namespace trueaxis::layout {
+
+std::string size_plus_minus(const Estimate& estimate, double coverage_factor, double scale,
+                            const std::string& unit) {
+  const double U = coverage_factor * estimate.u;
+  if (!estimate.determined() || !std::isfinite(U) || estimate.value > U)
+    return plus_minus(estimate, coverage_factor, scale, unit);
+  return fmt::format("below {:.2g} {} (95 % confidence)", scale * (estimate.value + U), unit);
+}
+
+}  // namespace trueaxis::layout

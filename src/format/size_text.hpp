@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::layout {
+
+/// `plus_minus` for what is never below 0: "below 4.1 µm (95 % confidence)" if it is within its U.
+std::string size_plus_minus(const Estimate& estimate, double coverage_factor, double scale,
+                            const std::string& unit);
+
+}  // namespace trueaxis::layout
