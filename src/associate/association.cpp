@@ -86,7 +86,7 @@ void describe_gaussian(AssociatedFeature& out, const GaussianElement& gaussian,
   const ShapeTraits& traits = traits_of(fit.placed.shape);
   out.u = uncertainty_of(fit.placed, cloud, covariance_of(fit, cloud));
   if (traits.residuals * cloud.points.size() == traits.parameters)
-    out.why_no_u = "there are as many distances as parameters, so that they show no noise";
+    out.why_no_u = "there are as many distances as parameters, so they do not show the noise";
   const auto n = static_cast<double>(cloud.points.size());
   const Parameters per = step_lengths(fit.placed.shape, cloud).cwiseInverse();
   const Parameters gradient = per.cwiseProduct(fit.normal.jtd) / n;
@@ -115,8 +115,7 @@ void describe_extreme(AssociatedFeature& out, const ExtremeElement& extreme,
   out.iterations = extreme.best.iterations;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   out.u = {{nan, nan, nan}, {nan, nan, nan}};
-  out.why_no_u =
-      "an element that rests on few points says nothing of their noise: repeat the measurement";
+  out.why_no_u = "an element through few points does not show their noise: repeat the measurement";
   out.certificate = {.contacts = {},
                      .stationarity = extreme.best.stationarity,
                      .gap_mm = extreme.best.gap,
@@ -139,9 +138,9 @@ std::string association_objection(Element element, Criterion criterion) {
     return {};
   const std::string name = element_names[static_cast<std::size_t>(element)];
   if (element == Element::line || element == Element::plane)
-    return "A " + name + " has no size that could be least or largest: ask for minimum_zone";
+    return "A " + name + " does not have a least or largest size: use minimum_zone";
   if (element == Element::cone)
-    return "A cone has two sizes that trade for each other: ask for minimum_zone";
+    return "A cone has two sizes, so a least or largest cone is not defined: use minimum_zone";
   return {};
 }
 
@@ -179,7 +178,7 @@ AssociatedFeature associate(std::span<const Point3> points_mm, Element element, 
     start.shape = Shape::circle_2d;
   if (criterion == Criterion::constrained && shape == Shape::line_3d) {
     fail(out, AssociationStatus::not_determined,
-         "A line in space has no side that could be that of the material");
+         "A line in space does not have a side of the material");
     return out;
   }
   const ExtremeElement extreme =

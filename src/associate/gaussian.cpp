@@ -52,7 +52,7 @@ std::string not_determined(const LeastSquares& fit, const PointCloud& cloud) {
     return cloud.scatter[i] - cloud.scatter[j] <= 1e-10 * cloud.length;
   };
   if ((line && equal(0, 1)) || (fit.placed.shape == Shape::plane && equal(1, 2)))
-    return "The points scatter equally in two directions, so that they show none";
+    return "The points scatter equally in two directions, so they do not show a direction";
   constexpr double far = 1e7;  // beyond, the bow of the surface is lost in the rounding of points
   if (std::abs(fit.placed.size) > far * cloud.length ||
       fit.placed.offset.norm() > far * cloud.length)

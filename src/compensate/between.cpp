@@ -250,13 +250,13 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
       {task_.line_of(move_),
        off_at_start_mm > tolerance_mm && !same_setting_
            ? "the tip is " + std::to_string(1e3 * off_at_start_mm) +
-                 " um off where the block begins, a place that was compensated for the work offset "
-                 "before: move there by G0 under the new one"
-       : off_at_ends_mm > tolerance_mm
-           ? "the tip is " + std::to_string(1e3 * off_at_ends_mm) +
-                 " um off at an end of the block, more than the tolerance: ask for more decimals"
-           : "more pieces than " + std::to_string(most_pieces) +
-                 " would be needed for the tolerance"});
+                 " um off where the block begins, a place that was compensated under the previous "
+                 "work offset: move there by G0 under the new one"
+       : off_at_ends_mm > tolerance_mm ? "the tip is " + std::to_string(1e3 * off_at_ends_mm) +
+                                             " um off at an end of the block, more than the "
+                                             "tolerance: raise the number of decimals"
+                                       : "more pieces than " + std::to_string(most_pieces) +
+                                             " would be needed for the tolerance"});
   return {};
 }
 

@@ -30,7 +30,7 @@ void validate(const TargetSurface& target, const ToolSetup& tool) {
               std::isfinite(target.overrun_mm) && target.overrun_mm >= 0.0,
           "run-in and overrun >= 0 mm");
   if (face) {
-    expects(!target.bore, "a face is no bore");
+    expects(!target.bore, "a face cannot be a bore");
     expects(std::isfinite(target.z_face_mm), "a finite Z of the face");
     expects(target.radius_start_mm != target.radius_end_mm, "a face with two different radii");
   } else {
@@ -43,8 +43,9 @@ void validate(const TargetSurface& target, const ToolSetup& tool) {
 }
 
 [[noreturn]] void refuse_miss(const char* what, double c_rad, double z_mm) {
-  throw Refusal(fmt::format("{} at C = {:g} deg, Z = {:g} mm: no correction can be given there",
-                            what, within_turn(c_rad) / rad_per_deg, z_mm));
+  throw Refusal(
+      fmt::format("{} at C = {:g} deg, Z = {:g} mm: a correction cannot be computed there", what,
+                  within_turn(c_rad) / rad_per_deg, z_mm));
 }
 
 /// The nose, a circle about its centre, stays on the target's side of a shoulder.

@@ -53,7 +53,8 @@ Shares shares_of(std::span<const Reference> references, double length_mm, bool n
   }
   if (!(position > 0.0) && needs_position) {
     throw Refusal(
-        "the references fix no position of the target axis: planes give its direction only. Add a "
+        "the references do not fix the position of the target axis: planes give its direction "
+        "only. Add a "
         "cylinder or cone with a weight above 0.");
   }
   for (double& share : shares.position) share /= position > 0.0 ? position : 1.0;

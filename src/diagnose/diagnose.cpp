@@ -36,10 +36,10 @@ Diagnosis not_diagnosable(Diagnosis out) {
                         out.baseline.surface == SurfaceKind::own ? "profile of one's own"
                                                                  : to_string(out.baseline.surface))
       : out.baseline.points <= out.baseline.parameters.size()
-          ? "no more readings than parameters: nothing is left to diagnose"
+          ? "no more readings than parameters: there are no residuals to diagnose"
       : out.baseline.status == FitStatus::implausible
           ? out.baseline.message
-          : "the surface was not found: nothing can be said beside it";
+          : "the surface was not found: its deviations cannot be diagnosed";
   out.next.why_not = out.noise.note;
   return out;
 }
@@ -69,8 +69,8 @@ void add_alike(const ProbeStream& stream, Diagnosis& out) {
   const auto form = std::ranges::find(effect_catalogue(), SeparatedAs::form, &Effect::separated_as);
   lobes.effect = form->id;
   lobes.why = fmt::format(
-      "{0} even angles see lobes of the orders {1} and {2} as eccentricity: 1 µm of them moves the "
-      "axis by 1 µm",
+      "with {0} even angles, lobes of the orders {1} and {2} look like eccentricity: 1 µm of them "
+      "moves the axis by 1 µm",
       *angles, *angles - 1, *angles + 1);
   lobes.axis_bias_per_unit = {1.0, 0.0, "mm/(mm)", ""};
   lobes.detectable = std::numeric_limits<double>::infinity();
@@ -83,9 +83,8 @@ std::vector<std::string> remarks_on(const Problem& problem, const Joint& joint,
   std::vector<std::string> out = off_centre_remark(problem, model);
   if (model.impossible)
     out.push_back(
-        fmt::format("{} ({}) would fit the readings best, but at a size that cannot be, and "
-                    "nothing is taken in "
-                    "its place: see whether set-ups, units and passes belong together",
+        fmt::format("{} ({}) fits the readings best, but at an impossible size, so TrueAxis names "
+                    "no cause: check that set-ups, units and passes belong together",
                     model.impossible->id, model.impossible->title));
   for (std::string& remark : form_class_remark(problem, joint, model.others))
     out.push_back(std::move(remark));
@@ -216,7 +215,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
     }
   });
   expects(may_be_sharper || !is_sharper(out.extended, out.baseline),
-          "U of the final axis is at least that of the ideal fit if nothing was found");
+          "if no cause was found, U of the final axis is at least that of the ideal fit");
   const LinearisationPoint& point = refit->problem().point;
   out.z_mid_mm = point.z_mid_mm, out.z_half_mm = point.z_half_mm;
   add_advice(ideal, *refit, search.model, explanation.ambiguous, hidden, out);
@@ -227,7 +226,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
   if (const std::string why = implausible_size(out); !why.empty())
     for (FitResult* fit : {&out.baseline, &out.named, &out.extended}) refuse(*fit, why);
   if (out.slip())
-    out.remarks.push_back("the part slipped: the axis is that of the part as it now stands");
+    out.remarks.push_back("the part slipped: the axis is that of the part after the slip");
   return out;
 }
 
@@ -236,9 +235,8 @@ bool Finding::may_be(std::string_view id) const {
 }
 
 const char* to_string(NoiseSource source) {
-  static constexpr const char* words[] = {"", "residuals of the extended model",
-                                          "stationary capture", "repeated passes",
-                                          "revolution differences"};
+  static constexpr const char* words[] = {"", "residuals of the final fit", "stationary capture",
+                                          "repeated passes", "revolution differences"};
   return words[static_cast<std::size_t>(source)];
 }
 

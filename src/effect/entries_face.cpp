@@ -44,7 +44,7 @@ std::vector<Effect> part_face() {
                       {"order", "1", 2, 12, "n, undulations per revolution"},
                       {"phase", "rad", 0, 0, "phi"}},
        .signature = "n undulations per revolution, fixed to the part",
-       .consequence = "the face's own form: nothing to do for its direction",
+       .consequence = "the face's own form: no action for its direction",
        .confounders = {"part.face_saddle"},
        .separations =
            {{"RC", "the lobes turn with the part, those of the spindle do not"},
@@ -61,7 +61,7 @@ std::vector<Effect> part_face() {
        .parameters = {{"amplitude", "mm", 1e-3, 0.02,
                        "a: change of Z over half of the radii probed", "amplitude_1"}},
        .signature = "no undulation around, linear in the radius",
-       .consequence = "the face's own form: nothing to do for its direction",
+       .consequence = "the face's own form: no action for its direction",
        .separations = {{"RE",
                         "beyond the axis a cone rises again, a slide out of square goes on "
                         "falling"},
@@ -79,7 +79,7 @@ std::vector<Effect> part_face() {
                       {"amplitude", "mm", 1e-3, 0.02, "a", "amplitude_2"},
                       {"cubic", "mm", 0, 0.01, "b", "amplitude_3"}},
        .signature = "no undulation around, curved along the radius",
-       .consequence = "the face's own form: nothing to do for its direction",
+       .consequence = "the face's own form: no action for its direction",
        .absorbed_by = "the height of the face, where one radius is probed",
        .separations =
            {{"RE", "on the other side of the axis a dish is mirrored, the bend of a slide goes on"},
@@ -98,7 +98,7 @@ std::vector<Effect> part_face() {
                       {"feed", "mm", 0.05, 0.5, "f, per revolution of the cut", "period_mm"},
                       {"phase", "rad", 0, 0, "phi"}},
        .signature = "a spiral: probed with a lead p outwards it has the order p/f + 1",
-       .consequence = "the finish of the face: nothing to do",
+       .consequence = "the finish of the face: no action",
        .confounders = {"part.feed_marks", "part.waviness"},
        .separations = {{"RC", "the spiral turns with the part"},
                        {"RZ", "on the way back its order is -p/f + 1"},
@@ -140,7 +140,7 @@ std::vector<Effect> spindle_axial() {
        .slot = Slot::arguments,
        .frame = EffectFrame::spindle,
        .term = Harmonic{Angle::spindle, Envelope::constant, TermPort::z, 1.0},
-       .formula = "Z' = Z + a cos(C - phi): once a turn, the same at every radius",
+       .formula = "Z' = Z + a cos(C - phi): once per revolution, the same at every radius",
        .parameters = {{"amplitude", "mm", 5e-4, 0.01, "a"}, {"phase", "rad", 0, 0, "phi"}},
        .signature = "1 undulation per revolution, the same at every radius; that of a tilted face "
                     "grows with the radius",

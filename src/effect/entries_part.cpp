@@ -72,9 +72,9 @@ std::vector<Effect> part_roundness() {
        .parameters = {{"amplitude", "mm", 1e-4, 5e-3, "a"},
                       {"feed", "mm", 0.05, 0.5, "f, per revolution of the cut", "period_mm"},
                       {"phase", "rad", 0, 0, "phi"}},
-       .signature = "a spiral: probed with a feed p per turn it has the order p/f - 1",
-       .consequence = "the finish of the part: nothing to do for the axis",
-       .absorbed_by = "eccentricity, when the probe's feed per turn is 2f or in a dwell",
+       .signature = "a spiral: probed with a feed p per revolution it has the order p/f - 1",
+       .consequence = "the finish of the part: no action for the axis",
+       .absorbed_by = "eccentricity, when the probe's feed per revolution is 2f, or in a dwell",
        .separations = {{"OZ", "the spiral moves with the part"},
                        {"RC", "the spiral turns with the part"},
                        {"RZ", "on the way back its order is -p/f - 1"}},
@@ -88,9 +88,8 @@ std::vector<Effect> part_roundness() {
        .slot = Slot::part,
        .frame = EffectFrame::part,
        .term = Harmonic{Angle::part, Envelope::parabola, TermPort::normal, 1.0},
-       .formula = "axis at a (u^2 - 1/3) towards phi, about the straight line nearest to it (kappa "
-                  "s^2 with "
-                  "its vertex at mid length); rho = a (u^2 - 1/3) cos alpha cos(theta - phi)",
+       .formula = "axis at a (u^2 - 1/3) towards phi, about the best straight line (kappa s^2, "
+                  "vertex at mid length); rho = a (u^2 - 1/3) cos alpha cos(theta - phi)",
        .parameters = {{"amplitude", "mm", 1e-3, 0.05, "a: sagitta over the probed length"},
                       {"phase", "rad", 0, 0, "phi, direction in the part"}},
        .signature = "1 undulation per revolution that grows as the square of Z",

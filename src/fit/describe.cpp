@@ -221,8 +221,8 @@ void note_radius(FitResult& result) {
       for (const FitParameter& p : result.parameters)
         if (p.name == name && !(p.estimate.value > p.estimate.expanded(result.coverage_factor)))
           result.notes.push_back(fmt::format(
-              "no part has a {} of {:.6g} mm: give the radius of the probe's ball, or "
-              "none where the readings are of the contact",
+              "no part has a {} of {:.6g} mm: give the radius of the probe's ball, or remove it if "
+              "the readings are contact points",
               p.name == std::string("radius") ? "radius" : "tube radius", p.estimate.value));
     return;
   }
@@ -230,10 +230,10 @@ void note_radius(FitResult& result) {
     const double radius_mm =
         result.shape.radius_mm + result.shape.tan_half_angle * (z_mm - result.shape.axis.z_ref_mm);
     if (!(radius_mm <= radius_U_mm(result))) continue;
-    result.notes.push_back(
-        fmt::format("no part has a radius of {:.6g} mm, as this one at Z = {:.6g} mm: give the "
-                    "radius of the probe's ball, or none where the readings are of the contact",
-                    radius_mm, z_mm));
+    result.notes.push_back(fmt::format(
+        "the part would have a radius of {:.6g} mm at Z = {:.6g} mm, which is impossible: give the "
+        "radius of the probe's ball, or remove it if the readings are contact points",
+        radius_mm, z_mm));
     return;
   }
 }
@@ -243,14 +243,14 @@ constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with prob
 void add_notes(const ReadingNoise& noise, FitResult& result) {
   if (noise.correlated) {
     result.notes.push_back(fmt::format(
-        "neighbouring residuals correlate ({:.2f}): slow noise, or form; every u is that of noise "
-        "with the autoregression {:.2f}, up to {:.1f}-fold that of white noise",
+        "neighbouring residuals correlate ({:.2f}): slow noise, or form; TrueAxis computes every u "
+        "for noise with the autoregression {:.2f}, up to {:.1f} times that of white noise",
         noise.autocorrelation, fmt::join(noise.correlated->phi, " and "), noise.u_factor));
   } else if (noise.u_factor > 1.0) {
-    result.notes.push_back(fmt::format(
-        "neighbouring residuals correlate ({:.2f}): form or slow noise; every u is widened "
-        "{:.1f}-fold",
-        noise.autocorrelation, noise.u_factor));
+    result.notes.push_back(
+        fmt::format("neighbouring residuals correlate ({:.2f}): form or slow noise; TrueAxis "
+                    "widens every u {:.1f}-fold",
+                    noise.autocorrelation, noise.u_factor));
   }
   const double stated = noise.stated_mm.value_or(0.0), shown = noise.shown_mm;
   if (noise_disagrees(stated, shown, noise.redundancy)) {
@@ -258,12 +258,12 @@ void add_notes(const ReadingNoise& noise, FitResult& result) {
         fmt::format("stated noise {:.3g} µm, the residuals show {:.3g} µm: ", stated / mm_per_um,
                     shown / mm_per_um) +
         (shown > stated
-             ? fmt::format("u is computed with what they show, {:.2g} times the statement; more "
-                           "than the sensor's noise is in the readings (form, motion, another "
-                           "surface or unit), or the statement is too small",
+             ? fmt::format("TrueAxis computes u from the residuals, {:.2g} times the stated noise; "
+                           "the readings contain more than the sensor's noise (form, motion, "
+                           "another surface or unit), or the stated noise is too small",
                            shown / stated)
-             : fmt::format("u is computed with the statement; where it is too large (a unit?), "
-                           "every u is up to {:.2g} times too large",
+             : fmt::format("TrueAxis computes u from the stated noise; if that is too large (a "
+                           "unit?), every u is up to {:.2g} times too large",
                            stated / shown)));
   }
   if (result.loss != Loss::plain) return;

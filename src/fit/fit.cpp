@@ -22,7 +22,7 @@ namespace {
 double ball_radius(const ProbeStream& stream, const FitOptions& options) {
   const double said = stream.ball_radius_mm.value_or(0.0);
   if (said > 0.0 && options.ball_radius_mm > 0.0 && said != options.ball_radius_mm) {
-    throw InputError(stream.source, "the stream says ball_radius " + std::to_string(said) +
+    throw InputError(stream.source, "the stream gives ball_radius " + std::to_string(said) +
                                         " mm, the job or command " +
                                         std::to_string(options.ball_radius_mm) + " mm: keep one");
   }
@@ -52,9 +52,9 @@ SurfaceFrame frame_of(const ProbeStream& stream, const FitOptions& options) {
   frame.ball_mm = options.bore ? -ball_mm : ball_mm;
   if (stream.indication == Indication::relative && stream.kind == StreamKind::lateral) {
     if (!stream.nominal_radius_mm) {
-      throw InputError(
-          stream.source,
-          "a relative gauge does not show the radius: say it, such as '# nominal_radius: 14.5 mm'");
+      throw InputError(stream.source,
+                       "a relative gauge does not show the radius: state it, such as '# "
+                       "nominal_radius: 14.5 mm'");
     }
     frame.nominal_radius_mm = *stream.nominal_radius_mm;
   }
@@ -97,20 +97,18 @@ void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
   validate(options);
   expects(stream.size() > 0, "readings");
   if (!stream.sensor_angles_rad.empty())
-    throw InputError(stream.source,
-                     "several sensors of one recording: separate_spindle takes them");
+    throw InputError(stream.source, "several sensors of one recording: use separate_spindle");
   expect_kind(stream, surface_entry(options).info);
   const bool ball = stream.ball_radius_mm.value_or(0.0) > 0.0 || options.ball_radius_mm > 0.0;
   if (!options.profile && !is_diagnosed(options.surface)) {
     if (stream.indication == Indication::relative)
-      throw InputError(stream.source,
-                       fmt::format("a {} is fitted to positions, not to a gauge's deviations: "
-                                   "give X_M itself",
-                                   to_string(options.surface)));
+      throw InputError(
+          stream.source,
+          fmt::format("a {} needs positions, not a gauge's deviations: give X_M itself",
+                      to_string(options.surface)));
     if (list_set_ups(stream).size() > 1)
-      throw InputError(stream.source,
-                       fmt::format("a {} is fitted in one set-up: give each a stream",
-                                   to_string(options.surface)));
+      throw InputError(stream.source, fmt::format("a {} needs one set-up: write a stream for each",
+                                                  to_string(options.surface)));
   }
   if (options.profile && (ball || stream.indication == Indication::relative)) {
     throw InputError(stream.source,

@@ -27,8 +27,8 @@ std::string unused_position(const ProbeStream& stream) {
   const auto [low, high] = range_of(stream.position_mm);
   if (!(high > low)) return "";
   return fmt::format(
-      "Z is not used: {} from Z = {:.6g} to {:.6g} mm{} were thrown together as one "
-      "section; taper and tilt between them count as noise (one section: a stream of one Z)",
+      "Z is not used: {} from Z = {:.6g} to {:.6g} mm{} are fitted as one section; taper and tilt "
+      "between them count as noise (for one section, write a stream at one Z)",
       counted(stream.size(), "reading"), low, high, in_sections(stream.position_mm));
 }
 
@@ -41,13 +41,13 @@ std::string unit_of_angle(const ProbeStream& stream) {
   const double turns = (high - low) / two_pi;
   if (stream.size() > 1 && 2 * long_steps >= stream.size() - 1) {
     return fmt::format(
-        "C runs over {:.4g} turns in {}, mostly more than half a turn from one to the "
-        "next: where it is in degrees, write C[deg]",
+        "C runs over {:.4g} turns in {}, mostly more than half a turn between readings: if it is "
+        "in degrees, write C[deg]",
         turns, counted(stream.size(), "reading"));
   }
   if (360.0 * turns < few_degrees) {
     return fmt::format(
-        "C covers {:.3g}° of the part only: where it is in radians, write C[rad], in turns C[rev]",
+        "C covers only {:.3g}° of the part: if it is in radians, write C[rad], if in turns, C[rev]",
         360.0 * turns);
   }
   return "";
@@ -94,11 +94,9 @@ std::string gross_readings(const ProbeStream& stream) {
     if (*usual > 0.0 && off_mm[i] > far * *usual) rows.push_back(i + 1);
   if (rows.empty() || rows.size() > most || rows.size() * one_in > stream.size()) return "";
   return fmt::format(
-      "row{} {} read{} {:.6g} mm{}, {:.4g} mm from the median of all, where nine readings in ten "
-      "lie "
-      "within {:.3g} mm: correct or remove {}, or count {} less with the loss tukey (--loss tukey, "
-      "in "
-      "a job loss = \"tukey\")",
+      "row{} {} read{} {:.6g} mm{}, {:.4g} mm from the median of all, while nine readings in ten "
+      "lie within {:.3g} mm: correct or remove {}, or reduce the weight of {} with the loss tukey "
+      "(--loss tukey, in a job loss = \"tukey\")",
       rows.size() == 1 ? "" : "s", ranges_text(rows), rows.size() == 1 ? "s" : "",
       stream.reading_mm[rows.front() - 1], rows.size() == 1 ? "" : " and the like",
       off_mm[rows.front() - 1], *usual, rows.size() == 1 ? "it" : "them",
@@ -112,11 +110,10 @@ std::vector<std::string> notes_on_input(const ProbeStream& stream, const Surface
     if (!note.empty()) notes.push_back(std::move(note));
   };
   if (stream.x_convention->said_by == SaidBy::nobody) {
-    add(
-        fmt::format("{} was taken as a radius, which nothing says: write '# x_convention: radius' "
-                    "(or diameter) into the stream, x_convention into the job, or give --radius "
-                    "(--diameter)",
-                    stream.kind == StreamKind::face ? "X" : "X_M"));
+    add(fmt::format(
+        "TrueAxis assumes that {} is a radius: to confirm, write '# x_convention: radius' (or "
+        "diameter) in the stream or x_convention in the job, or give --radius (--diameter)",
+        stream.kind == StreamKind::face ? "X" : "X_M"));
   }
   if (!info.needs_position && stream.has_position()) add(unused_position(stream));
   add(unit_of_angle(stream));

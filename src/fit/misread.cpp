@@ -105,24 +105,24 @@ constexpr Misreading misreadings[] = {
     {"C has 400 gon in a revolution", "multiply it by 0.9", &Suspicion::leaves_much, false,
      scale_c<0.9>},
     {"C runs at twice the angle", "halve it", &Suspicion::leaves_much, false, scale_c<0.5>},
-    {"C begins anew every 180°", wrapped, &Suspicion::leaves_much, false, unwrap_c<180>},
-    {"C begins anew every 90°", wrapped, &Suspicion::leaves_much, false, unwrap_c<90>},
-    {"C begins anew after a revolution that has not 360°", "write degrees", &Suspicion::any, false,
-     begin_anew_each_turn},
-    {"C runs to and fro, because it is folded", wrapped, &Suspicion::any, false, unfold_c},
-    {"X_M begins anew where a display or a counter ends", "record its whole range",
+    {"C restarts every 180°", wrapped, &Suspicion::leaves_much, false, unwrap_c<180>},
+    {"C restarts every 90°", wrapped, &Suspicion::leaves_much, false, unwrap_c<90>},
+    {"C restarts after a revolution that does not have 360°", "write degrees", &Suspicion::any,
+     false, begin_anew_each_turn},
+    {"C runs to and fro because it is folded", wrapped, &Suspicion::any, false, unfold_c},
+    {"X_M restarts at the end of a display or counter", "record its whole range",
      &Suspicion::leaves_much, false, unwrap_reading},
     // An oval part whose centre runs true would be one that runs out at half the angle.
     {"C runs at half the angle (or the part is oval and runs true)", "double it",
      &Suspicion::leaves_much, false, scale_c<2.0>, by_far_better},
-    {"C runs at half the angle and begins anew every revolution", wrapped, &Suspicion::leaves_much,
+    {"C runs at half the angle and restarts every revolution", wrapped, &Suspicion::leaves_much,
      false,
      [](ProbeStream& s) {
        unwrap_c<180>(s);
        scale_c<2.0>(s);
      }},
-    {"X_M repeats at another angle than a revolution of C: C has another unit, or X_M is no "
-     "probe's",
+    {"X_M repeats at another angle than a revolution of C: C has another unit, or X_M is not from "
+     "a probe",
      "check both columns", &Suspicion::leaves_much, false, turn_as_reading_does}};
 
 std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }

@@ -40,8 +40,8 @@ Root find_root(const ProbeStream& stream, const SetUp& set_up, const Extent& x) 
   if (x.low > 0.0 && !set_up.rear) return Root::front;
   if (x.low > 0.0) {
     throw InputError(stream.source, "X_M" + of_set_up(stream, set_up) +
-                                        " is positive, but the side is said to be rear: behind the "
-                                        "spindle axis X_M is negative; correct one");
+                                        " is positive, but the stated side is rear: on the rear "
+                                        "side of the spindle axis X_M is negative; correct one");
   }
   std::size_t row = 0;
   const auto elsewhere = [&] {

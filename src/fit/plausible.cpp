@@ -74,8 +74,8 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
   if (fit.rms_mm > limit_mm && mad_sigma(fit.residual_mm) > limit_mm) {
     const std::string other = other_surface(stream, fit, refit);
     return fmt::format(
-        "the residuals are {:.3g} mm RMS. No turned part and no probe leave more than {:.2g} mm, "
-        "so these readings are not those of a probe on a {}{}",
+        "the residuals are {:.3g} mm RMS. No turned part and probe leave more than {:.2g} mm, so "
+        "these readings are not those of a probe on a {}{}",
         fit.rms_mm, limit_mm, to_string(fit.surface), other.empty() ? ". " + remedy : other);
   }
   if (fit.rms_mm < most_scatter_mm) return "";
@@ -116,7 +116,7 @@ std::string alternate_rows(const ProbeStream& stream, const FitResult& fit) {
   if (explained < alternate_share || n * explained < six_sigma) return "";
   return fmt::format(
       "odd and even rows of {} differ by {:.3g} µm all through: two recordings are interleaved, or "
-      "two sensors are in one column. Give each a file",
+      "two sensors are in one column. Write each to its own file",
       stream.source, 2.0 * half_mm / mm_per_um);
 }
 
@@ -131,8 +131,8 @@ std::string is_sphere(const ProbeStream& stream, const FitResult& fit, const Ref
     return "";
   return fmt::format(
       "the readings are those of a sphere of radius {:.6g} mm, not of a cone or cylinder, and a "
-      "sphere has no axis: `trueaxis fit {} --surface sphere` finds its centre, and a job takes "
-      "none",
+      "sphere has no axis: `trueaxis fit {} --surface sphere` finds its centre; a job cannot use a "
+      "sphere",
       sphere.parameter("radius").value, stream.source);
 }
 
@@ -179,9 +179,9 @@ std::string unlike_noise(const ProbeStream& stream, const FitResult& fit) {
   const double in_angle = neighbours_correlate(left_mm, rows);
   if (std::max(std::abs(in_time), std::abs(in_angle)) * std::sqrt(n) > white_sds) return "";
   return fmt::format(
-      "what the surface leaves ({:.3g} µm RMS) has no order in time and none in angle, but the "
-      "distribution of a sine: X_M and C of a row are not of the same instant (a column was sorted "
-      "or shuffled), or X_M is another channel",
+      "the residuals ({:.3g} µm RMS) are not ordered in time or angle, but have the distribution "
+      "of a sine: X_M and C of a row were not recorded at the same instant (a column was sorted or "
+      "shuffled), or X_M is another channel",
       fit.rms_mm / mm_per_um);
 }
 

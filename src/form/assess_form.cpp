@@ -54,14 +54,14 @@ std::vector<SectionModel> models_of(const Sections& sections, const FormOptions&
     wrong.resize(listed);
     int carried = 500;
     for (const SectionModel& one : models) carried = std::min(carried, highest_order(one.raw()));
-    wrong.push_back(
-        {source, 0, 0,
-         fmt::format("{} more sections likewise; all of them carry up to {} UPR", more, carried)});
+    wrong.push_back({source, 0, 0,
+                     fmt::format("{} more sections likewise; all of them support up to {} UPR",
+                                 more, carried)});
   }
   if (!wrong.empty() && together >= 2)
     wrong = {{source, 0, 0,
-              fmt::format("{:g} UPR needs more angles than the readings have, 7 a wave: as one "
-                          "surface they carry up to {} UPR (--upr 1-{})",
+              fmt::format("{:g} UPR needs more angles than the readings have, 7 per wave: as one "
+                          "surface they support up to {} UPR (--upr 1-{})",
                           options.high_upr, together, together)}};
   if (!wrong.empty()) throw InputError(std::move(wrong));
   share_noise(models, options);

@@ -68,7 +68,7 @@ std::vector<double> sections_along(const std::vector<Eigen::Vector3d>& points) {
     const double low = points[order[begin]].z(), high = points[order[end - 1]].z();
     if (high - low > thickest_slice_mm)
       throw InputError("points",
-                       fmt::format("the points of the cylinder stand in no sections (some from "
+                       fmt::format("the points of the cylinder are not in sections (some from "
                                    "{:.4g} to {:.4g} mm along the axis without a break): `trueaxis "
                                    "fit --points` gives the zone of such points, without a filter",
                                    low, high));
@@ -94,10 +94,10 @@ FormResult revolved(const std::vector<Eigen::Vector3d>& points, Element element,
   const ProbeStream stream = as_stream(points, element == Element::cylinder);
   const auto [low, high] = std::ranges::minmax(stream.reading_mm);
   if (high - low > 0.5 * high)
-    throw InputError("points",
-                     fmt::format("the points make no {}: they are {:.4g} to {:.4g} mm off "
-                                 "its middle",
-                                 element_names[static_cast<std::size_t>(element)], low, high));
+    throw InputError(
+        "points",
+        fmt::format("the points do not form a {}: they are {:.4g} to {:.4g} mm from its centre",
+                    element_names[static_cast<std::size_t>(element)], low, high));
   FormResult result = assess_form(stream, options);
   // Points know no spindle: there is nothing to be eccentric to.
   std::erase_if(result.groups, [](const FormGroup& group) { return group.name == "datum"; });
@@ -159,10 +159,9 @@ FormResult assess_form(std::span<const Point3> points_mm, Element element,
   expect_options(options);
   if (element != Element::line && element != Element::circle && element != Element::plane &&
       element != Element::cylinder)
-    throw InputError("points",
-                     fmt::format("a {} has no form parameters of ISO 1101 of its own: `trueaxis "
-                                 "fit --points` gives its zone",
-                                 element_names[static_cast<std::size_t>(element)]));
+    throw InputError("points", fmt::format("ISO 1101 does not define form parameters of a {}: use "
+                                           "`trueaxis fit --points` for its zone",
+                                           element_names[static_cast<std::size_t>(element)]));
   const AssociatedFeature found = nominal(points_mm, element);
   const std::vector<Eigen::Vector3d> points = in_frame(points_mm, found);
   if (element == Element::circle || element == Element::cylinder)

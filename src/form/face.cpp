@@ -90,10 +90,10 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
                                            {values[v].value, spread[v].u, values[v].unit, ""},
                                            spread[v].bias});
   }
-  result.notes.push_back(fmt::format(
-      "No filter along the surface: the values are of the readings as they stand, U rests on a "
-      "noise of {:.3g} µm a reading",
-      noise_mm / mm_per_um));
+  result.notes.push_back(
+      fmt::format("No filter along the surface: the values are those of the unfiltered readings, "
+                  "and U is based on a noise of {:.3g} µm per reading",
+                  noise_mm / mm_per_um));
 }
 
 void assess_face(const ProbeStream& stream, std::span<const TakenOff> taken_off,

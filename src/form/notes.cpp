@@ -18,14 +18,13 @@ void note_radius(const ProbeStream& stream, const Sections& sections, FormResult
     const double e = result.sections.front().values.front().estimate.value;
     result.notes.push_back(fmt::format(
         "The radius of the section is not known (a relative gauge without nominal_radius): the "
-        "reference circles are limaçons. An eccentric circle of radius R reads as {:.3g} µm / (R "
-        "in mm) of two lobes more: centre the part or give --nominal-radius-mm",
+        "reference circles are limaçons. An eccentric circle of radius R adds {:.3g} µm / (R in "
+        "mm) of two lobes: centre the part or give --nominal-radius-mm",
         0.25 * e * e / mm_per_um));
     if (result.sections.size() > 1)
       result.notes.emplace_back("Cylindricity and run-out of several sections need the radius");
   } else if (stream.x_convention && stream.x_convention->said_by == SaidBy::nobody) {
-    result.notes.emplace_back(
-        "X_M was taken as a radius, which nothing says: give --radius or --diameter");
+    result.notes.emplace_back("TrueAxis assumes that X_M is a radius: give --radius or --diameter");
   }
 }
 
@@ -37,27 +36,28 @@ void note_sampling(FormResult& result) {
     if (std::abs(section.transmission - 0.5) > std::abs(worst - 0.5)) worst = section.transmission;
   }
   if (gaps > 0.0)
-    result.notes.push_back(fmt::format(
-        "{:.1f}° of a section have no readings over more than half a wave of the cut-off: nothing "
-        "was put in there, and form there is in no number",
-        gaps / rad_per_deg));
+    result.notes.push_back(
+        fmt::format("{:.1f}° of a section have no readings over more than half a wave of the "
+                    "cut-off: TrueAxis does not fill the gap, and no value includes form there",
+                    gaps / rad_per_deg));
   if (options.filter != ProfileFilter::none && std::abs(worst - 0.5) > 0.01)
     result.notes.push_back(fmt::format(
         "{}: it lets {:.1f} % of a wave at the cut-off through here, not 50 %",
         options.filter == ProfileFilter::robust_gaussian
-            ? "The robust filter leaves readings out, and others are few or uneven for it"
-            : "The angles of the readings are uneven or few for the filter",
+            ? "The robust filter excludes readings, and too few remain or they are uneven"
+            : "The angles of the readings are uneven or too few for the filter",
         100.0 * worst));
   if (options.filter == ProfileFilter::none)
     result.notes.emplace_back(
-        "No filter: the values are of the readings as they stand, and comparable with no others");
+        "No filter: the values are those of the unfiltered readings and cannot be compared with "
+        "others");
 }
 
 void note_ball(FormResult& result) {
   const FormOptions& options = result.options;
   if (!(options.ball_radius_mm > 0.0)) {
     result.notes.emplace_back(
-        "The ball's radius is not known (--ball-radius-mm): what it bridges is in no U");
+        "The ball's radius is not known (--ball-radius-mm): U does not include what it bridges");
     return;
   }
   const SectionForm& section = result.sections.front();
@@ -68,8 +68,8 @@ void note_ball(FormResult& result) {
         followed_amplitude_mm(one.order, radius_mm, options.ball_radius_mm, options.bore);
     if (one.amplitude_mm < 0.5 * followed) continue;
     result.notes.push_back(fmt::format(
-        "The ball of radius {:g} mm follows {} lobes down to the ground up to an amplitude of "
-        "{:.3g} µm only, and {:.3g} µm were found: valleys are deeper than measured",
+        "The ball of radius {:g} mm reaches the bottom of {} lobes only up to an amplitude of "
+        "{:.3g} µm, and {:.3g} µm were found: valleys are deeper than measured",
         options.ball_radius_mm, one.order, followed / mm_per_um, one.amplitude_mm / mm_per_um));
     return;
   }
@@ -88,10 +88,10 @@ void note_noise(FormResult& result) {
         value = one.estimate.value;
       }
   if (share > 0.1)
-    result.notes.push_back(fmt::format(
-        "Noise alone makes a RONt of {:.3g} µm larger by {:.3g} µm on average: it is in U, and "
-        "not taken off",
-        value / mm_per_um, bias / mm_per_um));
+    result.notes.push_back(
+        fmt::format("Noise alone makes a RONt of {:.3g} µm larger by {:.3g} µm on average: this is "
+                    "included in U and not subtracted",
+                    value / mm_per_um, bias / mm_per_um));
 }
 
 }  // namespace
@@ -100,9 +100,9 @@ void expect_options(const FormOptions& options) {
   std::vector<Diagnostic> wrong;
   const auto add = [&](std::string message) { wrong.push_back({"options", 0, 0, message}); };
   if (!(options.high_upr >= 2.0 && options.high_upr <= 1500.0))
-    add(fmt::format("a cut-off of {:g} UPR: it is from 2 to 1500", options.high_upr));
+    add(fmt::format("a cut-off of {:g} UPR: give 2 to 1500", options.high_upr));
   if (!(options.low_upr >= 1.0 && options.low_upr < options.high_upr))
-    add(fmt::format("a pass band of {:g} to {:g} UPR: it begins at 1 or above and ends higher",
+    add(fmt::format("a pass band of {:g} to {:g} UPR: begin at 1 or above and end higher",
                     options.low_upr, options.high_upr));
   if (options.trials < 10) add("a Monte Carlo takes 10 trials at least");
   if (!(options.coverage_factor > 0.0)) add("the coverage factor is above 0");

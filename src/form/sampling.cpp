@@ -20,19 +20,18 @@ constexpr double standard_upr[] = {500.0, 150.0, 50.0, 15.0};
 
 std::string more_points(double upr, double step) {
   const double carried = std::floor(turn_rounding * two_pi / (least_points_per_cycle * step));
-  std::string text =
-      fmt::format("{:g} UPR needs {:.0f} readings a turn, 7 a wave, and there are {:.0f}: ", upr,
-                  std::ceil(least_points_per_cycle * upr), two_pi / step);
+  std::string text = fmt::format(
+      "{:g} UPR needs {:.0f} readings per revolution, 7 per wave, and there are {:.0f}: ", upr,
+      std::ceil(least_points_per_cycle * upr), two_pi / step);
   if (carried < 2.0)
     return text +
-           "too few for any filter; '--filter none' gives the range of the readings as they "
-           "stand";
+           "too few for any filter; '--filter none' gives the range of the unfiltered readings";
   double standard = 0.0;
   for (const double one : standard_upr)
     if (one <= carried) standard = std::max(standard, one);
-  text += fmt::format("they carry up to {:.0f} UPR", carried);
+  text += fmt::format("they support up to {:.0f} UPR", carried);
   if (standard > 0.0) text += fmt::format(" (--upr 1-{:g})", standard);
-  return text + ", or probe more a turn";
+  return text + ", or probe more per revolution";
 }
 
 /// The step that so much of the length of a trace keeps below.
@@ -67,14 +66,14 @@ std::string sampling_trouble(const Trace& trace, const FormOptions& options) {
   for (std::size_t i = 0; i < trace.size(); ++i) widest = std::max(widest, trace.step(i));
   if (widest > 0.5 * two_pi)
     return fmt::format(
-        "{:.0f}° without a reading: a section needs readings over more than half a turn, whose "
-        "circle is else not held",
+        "{:.0f}° without a reading: a section needs readings over more than half a turn to "
+        "determine its circle",
         widest / rad_per_deg);
   if (options.filter == ProfileFilter::none) return "";
   if (widest > (1.0 - kept_by) * two_pi && usual_step(trace) >= widest)
     return fmt::format(
-        "{:.0f}° without a reading: of more than a quarter of a turn no filter knows the form; "
-        "'--filter none' gives the range of the readings as they stand",
+        "{:.0f}° without a reading: a filter cannot bridge more than a quarter of a turn; "
+        "'--filter none' gives the range of the unfiltered readings",
         widest / rad_per_deg);
   if (turn_rounding * points_per_cycle(trace, two_pi / options.high_upr) < least_points_per_cycle)
     return more_points(options.high_upr, usual_step(trace));

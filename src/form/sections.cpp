@@ -122,10 +122,10 @@ void take_off_slope(const ProbeStream& stream, const std::vector<std::vector<std
   for (const auto& section : sections.list) count += section.size();
   Exchange::Rows rows(static_cast<Eigen::Index>(count), 6);
   if (rows.rows() <= rows.cols())
-    throw InputError(stream.source,
-                     fmt::format("{} readings in whole turns: a cylinder with a form "
-                                 "takes {} at least",
-                                 count, rows.cols() + 1));
+    throw InputError(
+        stream.source,
+        fmt::format("{} readings in whole turns: the form of a cylinder needs at least {}", count,
+                    rows.cols() + 1));
   std::vector<double> y;
   Eigen::Index row = 0;
   for (std::size_t s = 0; s < turns.size(); ++s)
@@ -147,11 +147,11 @@ void take_off_slope(const ProbeStream& stream, const std::vector<std::vector<std
   }
   sections.pitch_mm =
       (high - low) / std::max(1.0, std::abs(stream.c_rad.back() - stream.c_rad.front()) / two_pi);
-  sections.notes.push_back(fmt::format(
-      "The readings run on a helix of {:.4g} mm a turn: each whole turn is taken as a section, "
-      "and what the associated cone rises within it is taken off; form that changes along Z "
-      "within a turn shows as a step where the turn closes",
-      sections.pitch_mm));
+  sections.notes.push_back(
+      fmt::format("The readings run on a helix of {:.4g} mm per revolution: TrueAxis treats each "
+                  "whole turn as a section and subtracts the rise of the associated cone. Form "
+                  "that changes along Z within a turn shows as a step where the turn closes",
+                  sections.pitch_mm));
 }
 
 }  // namespace
@@ -196,10 +196,9 @@ Sections sections_of(const ProbeStream& stream, const FormOptions& options) {
   const bool helix = groups.empty();
   if (helix) groups = by_turns(stream);
   if (helix && groups.size() < 2)
-    throw InputError(
-        stream.source,
-        "one whole turn of a helix: Z and C run together, and two lobes cannot be told "
-        "from a tilt; probe the turn at one Z, or two turns at least");
+    throw InputError(stream.source,
+                     "one whole turn of a helix: Z and C run together, and two lobes cannot be "
+                     "told from a tilt; probe the turn at one Z, or at least two turns");
   for (const auto& group : groups) sections.list.push_back(readings_of(stream, options, group));
   if (helix) take_off_slope(stream, groups, sections);
   return sections;

@@ -56,15 +56,15 @@ void check_angles(const ProbeStream& stream, Troubles& troubles) {
                                  ? ": it looks like radians, write C[rad]"
                              : as_said < few_deg && off_multiple(as_said, 1.0) < 0.01
                                  ? ": it looks like turns, write C[rev]"
-                                 : ": probe at least half a turn, a whole one for a roundness";
+                                 : ": probe at least half a turn, and a whole turn for roundness";
     troubles.add(
-        fmt::format("C covers {:.4g}° only, and a section needs half a turn{}", as_said, hint));
+        fmt::format("C covers only {:.4g}°, and a section needs half a turn{}", as_said, hint));
   } else if (covered > 300.0 && off_multiple(covered, 360.0) < 1e-3 &&
              off_multiple(covered, two_pi) > 1e-2) {
-    troubles.add(fmt::format(
-        "C runs over {:.6g} rad, which is no whole number of turns, while {:.0f} degrees are: "
-        "where it is in degrees, write C[deg]",
-        covered, covered));
+    troubles.add(
+        fmt::format("C runs over {:.6g} rad, which is not a whole number of turns, while {:.0f} "
+                    "degrees are: if it is in degrees, write C[deg]",
+                    covered, covered));
   }
 }
 
@@ -74,10 +74,10 @@ void check_common(const ProbeStream& stream, Troubles& troubles) {
         "several sensors X_M1, X_M2 …: `trueaxis spindle` separates form and motion of these; give "
         "the form one sensor X_M");
   if (list_set_ups(stream).size() > 1)
-    troubles.add("several set-ups: form is assessed of one, so give a stream for each");
+    troubles.add("several set-ups: form is assessed for one, so write a stream for each");
   const std::size_t least = stream.has_position() ? 7 : 4;  // one more than what they determine
   if (stream.size() < least)
-    troubles.add(fmt::format("{} readings: a {} with a form takes {} at least", stream.size(),
+    troubles.add(fmt::format("{} readings: the form of a {} needs at least {}", stream.size(),
                              stream.has_position() ? "cylinder" : "circle", least));
   if (!all_finite(stream.reading_mm) || !all_finite(stream.c_rad) ||
       !all_finite(stream.position_mm))
@@ -101,8 +101,8 @@ void expect_sections(const ProbeStream& stream) {
     const auto [low, high] = range_of(stream.reading_mm);
     if (low * high <= 0.0 || high - low > 0.5 * std::max(std::abs(low), std::abs(high)))
       troubles.add(fmt::format(
-          "X_M from {:.6g} to {:.6g} mm is no radius of a section: readings of a gauge need "
-          "'# reading: relative' (--relative), with '# nominal_radius: R mm' where it is known",
+          "X_M from {:.6g} to {:.6g} mm is not a radius of a section: readings of a gauge need "
+          "'# reading: relative' (--relative), with '# nominal_radius: R mm' if it is known",
           low, high));
   }
   check_angles(stream, troubles);

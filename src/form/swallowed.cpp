@@ -97,8 +97,8 @@ void withhold_swallowed(FormResult& result) {
   double lost_mm = 0.0;
   for (const SwallowedLobes& one : result.swallowed)
     lost_mm += 2.0 * (1.0 - one.passed) * (one.amplitude_mm + k * one.u_mm);
-  const std::string why =
-      fmt::format("{:g} UPR takes part of the lobes that were found", result.options.high_upr);
+  const std::string why = fmt::format("the filter of {:g} UPR suppresses part of the lobes found",
+                                      result.options.high_upr);
   const auto withhold = [&](std::vector<FormValue>& values) {
     for (FormValue& one : values) {
       if (std::ranges::find(resting_on_lobes, one.name) == resting_on_lobes.end()) continue;

@@ -184,8 +184,8 @@ std::string WholeModel::rocking(Criterion criterion) const {
   const char* name = name_of(criterion);
   if (fit.held_mm < 0.5 * half_mm_)
     return fmt::format(
-        "The {} cylinder rests on {:.3g} of {:.3g} mm of its length: its axis may rock, and what "
-        "is about it hangs on that",
+        "The {} cylinder rests on {:.3g} of {:.3g} mm of its length: its axis may rock, which "
+        "affects all values about it",
         name, fit.held_mm, 2.0 * half_mm_);
   double apart = 0.0;
   for (const double z : {middle_mm_ - half_mm_, middle_mm_ + half_mm_}) {

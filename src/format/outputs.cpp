@@ -126,8 +126,9 @@ std::string why_not_in(fs::path folder) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status))
-    return cannot("its folder " + folder.string() + " is not there, and is not made on the way");
-  if (!fs::is_directory(status)) return cannot(folder.string() + " is no folder");
+    return cannot("its folder " + folder.string() +
+                  " does not exist, and TrueAxis does not create it");
+  if (!fs::is_directory(status)) return cannot(folder.string() + " is not a folder");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     return cannot("its folder: " + std::string(std::strerror(errno)));
   return "";
@@ -173,7 +174,7 @@ std::string Outputs::of_folder() const {
   const fs::file_status status = fs::status(folder_, error);
   if (fs::is_directory(status)) return why_not_in(folder_);
   if (fs::exists(fs::symlink_status(folder_, error)))
-    return "is no folder: name one for the results";
+    return "is not a folder: name one for the results";
   return why_not_in(fs::path(folder_).parent_path());
 }
 
@@ -209,7 +210,7 @@ std::string Outputs::objection(const Place& place) const {
   if (::access(target.c_str(), W_OK) != 0) return cannot(std::strerror(errno));
   if (force_ || fs::file_size(target, error) == 0) return "";
   if (place.begins && read_file(target) == *place.begins) return "";
-  if (place.begins) return "is there and may hold your changes: name another place, or say --force";
+  if (place.begins) return "is there and may hold your changes: name another place, or use --force";
   if (place.schema.empty()) return "";
   const std::string found = schema_of_file(target);
   if (found == place.schema) return "";
@@ -326,7 +327,7 @@ void Outputs::commit() {
     std::error_code error;
     fs::remove(path, error);
     if (error) {
-      throw InputError(path, "is of an earlier job and cannot be removed (" + error.message() +
+      throw InputError(path, "belongs to an earlier job and cannot be removed (" + error.message() +
                                  "): do not use it");
     }
   }

@@ -170,7 +170,8 @@ std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size
         row.push_back(i < without_unit ? value : value * found.factor);
     }
     if (array == nullptr || array->size() != width || row.size() != width)
-      state_->wrong({found.key, 1.0, &node}, "holds what is no such row: give " + give);
+      state_->wrong({found.key, 1.0, &node},
+                    "holds something that is not such a row: give " + give);
     else
       rows.push_back(std::move(row));
   }
@@ -318,7 +319,7 @@ std::string_view TomlTable::name_of(std::string_view now, std::string_view befor
   const std::vector<KeySpelling> today = key_spellings(now), earlier = key_spellings(before);
   for (std::size_t i = 0; i < earlier.size(); ++i)
     state_->renamed[earlier[i].key] = today.at(i).key;
-  if (has(before) && has(now)) complain(before, "stands beside it: keep that one");
+  if (has(before) && has(now)) complain(before, "is given as well: keep that one");
   return has(before) ? before : now;
 }
 
@@ -348,7 +349,7 @@ void TomlDocument::Impl::parse(std::string_view content) {
     root = toml::parse(content, path);
   } catch (const toml::parse_error& error) {
     throw InputError({{path, error.source().begin.line, error.source().begin.column,
-                       "is no TOML: " + std::string(error.description()) +
+                       "is not valid TOML: " + std::string(error.description()) +
                            backslash_hint(content, error.source().begin.line)}});
   }
   open(&root, "", {1, 1});

@@ -28,8 +28,8 @@ inline constexpr const char* backslash_advice =
     "or "
     "with '/'";
 
-/// Of line `number` (1-based) of a text that is no TOML: ": " and that advice where the line has a
-/// backslash in double quotes.
+/// Of line `number` (1-based) of a text that is not valid TOML: ": " and that advice where the line
+/// has a backslash in double quotes.
 std::string backslash_hint(std::string_view content, std::size_t number);
 
 bool holds_control_character(std::string_view text);

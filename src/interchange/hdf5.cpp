@@ -76,7 +76,7 @@ class Hdf5 {
     // An image in memory must have the name of no file: nothing stands below one.
     const std::string nowhere = path_ + "/in memory";
     const Handle file(H5Fopen(nowhere.c_str(), H5F_ACC_RDONLY, access), &H5Fclose);
-    if (!file.good()) throw InputError(path_, "is no whole HDF5 file: copy it again");
+    if (!file.good()) throw InputError(path_, "is not a complete HDF5 file: copy it again");
     const auto each = [](hid_t, const char* name, const H5O_info_t* info, void* self) -> herr_t {
       if (info->type == H5O_TYPE_DATASET) static_cast<Hdf5*>(self)->names_.emplace_back(name);
       return 0;
@@ -120,7 +120,7 @@ class Hdf5 {
     array.values.resize(budget_.take(name, array.rows, array.columns));
     if (!array.values.empty() &&
         H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) < 0)
-      fail("cannot be read: it is cut off, its check sum does not agree, or a filter is missing");
+      fail("cannot be read: it is incomplete, its check sum is wrong, or a filter is missing");
     return array;
   }
 

@@ -23,7 +23,7 @@ void expect_whole(const std::string& path, const std::string& bytes) {
       length |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + 4 + i]))
                 << 8U * (little ? i : 3 - i);
     if (at + 8 > bytes.size() || length > bytes.size() - at - 8)
-      throw InputError(path, "is a MATLAB file that is cut off: copy it again");
+      throw InputError(path, "is an incomplete MATLAB file: copy it again");
     at += 8 + length;
   }
 }
@@ -113,7 +113,7 @@ NumberFile read_matlab(const std::string& path, const std::string& bytes) {
   const MemoryFile copy(bytes);
   const std::unique_ptr<mat_t, int (*)(mat_t*)> file(Mat_Open(copy.path().c_str(), MAT_ACC_RDONLY),
                                                      &Mat_Close);
-  if (!file) throw InputError(path, "is no whole MATLAB file: copy it again");
+  if (!file) throw InputError(path, "is not a complete MATLAB file: copy it again");
   NumberFile out{.kind = "a MATLAB file", .arrays = {}};
   NumberBudget budget(path);
   using Variable = std::unique_ptr<matvar_t, void (*)(matvar_t*)>;

@@ -53,7 +53,7 @@ std::size_t NumberBudget::take(const std::string& name, std::size_t rows, std::s
   if (rows > left_ / columns)
     throw InputError(path_, (name.empty() ? "it" : "its array " + name) + " would be " +
                                 std::to_string(rows) + " x " + std::to_string(columns) +
-                                " numbers, more than is read of one file (2 GiB)" +
+                                " numbers, more than TrueAxis reads from one file (2 GiB)" +
                                 (left_ < most_numbers ? " with the arrays before it" : ""));
   left_ -= rows * columns;
   return rows * columns;

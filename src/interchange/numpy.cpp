@@ -95,8 +95,8 @@ class Npy {
     }
     if (bytes_.size() != array.rows * across * row_bytes)
       fail("has " + std::to_string(bytes_.size()) + " bytes of numbers and its header says " +
-           std::to_string(array.rows * across * row_bytes) + ": it was cut off or changed");
-    if (count == 0) return array;  // of (10^18, 0) there is no row to walk through
+           std::to_string(array.rows * across * row_bytes) + ": it was truncated or changed");
+    if (count == 0) return array;  // of (10^18, 0) there is not a row to walk through
     array.values.reserve(count);
     const bool fortran = value_of(header_, "'fortran_order'").starts_with("True");
     for (std::size_t row = 0; row < array.rows; ++row)
@@ -118,12 +118,12 @@ class Npy {
     const auto byte = [&](std::size_t at) {
       return static_cast<std::size_t>(static_cast<unsigned char>(bytes_[at]));
     };
-    if (bytes_.size() < 12 || !bytes_.starts_with("\x93NUMPY")) fail("is no NumPy array");
+    if (bytes_.size() < 12 || !bytes_.starts_with("\x93NUMPY")) fail("is not a NumPy array");
     const bool wide = byte(6) >= 2;
     const std::size_t begin = wide ? 12 : 10;
     std::size_t length = byte(8) | byte(9) << 8U;
     if (wide) length |= byte(10) << 16U | byte(11) << 24U;
-    if (length > bytes_.size() - begin) fail("is cut off in its header");
+    if (length > bytes_.size() - begin) fail("ends within its header");
     header_ = bytes_.substr(begin, length);
     bytes_ = bytes_.substr(begin + length);
   }
@@ -167,7 +167,7 @@ class Npy {
     while (!text.empty() && text.front() != ')') {
       if (take_word(text, " ") || take_word(text, ",")) continue;
       const auto value = take_number<std::size_t>(text);
-      if (!value) fail("has a header whose shape is none");
+      if (!value) fail("has a header with an invalid shape");
       shape.push_back(*value);
     }
     return shape;

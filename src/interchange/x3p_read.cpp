@@ -31,10 +31,10 @@ class X3p {
     check_sum_of_xml(xml);
     pugi::xml_document document;
     const pugi::xml_parse_result parsed = document.load_buffer(xml.data(), xml.size());
-    if (!parsed) fail(std::string("main.xml is no XML: ") + parsed.description());
+    if (!parsed) fail(std::string("main.xml is not valid XML: ") + parsed.description());
     root_ = document.document_element();
     if (!std::string_view(root_.name()).ends_with("ISO5436_2"))
-      fail(std::string("main.xml is no X3P: its root is ") + root_.name());
+      fail(std::string("main.xml is not X3P: its root is ") + root_.name());
     read_axes();
     read_size();
     NumberArray points{.name = "points", .unit = "m", .rows = 0, .columns = 3};
@@ -48,7 +48,7 @@ class X3p {
     NumberFile file{.kind = "an X3P file (metres)", .arrays = {}, .notes = std::move(notes_)};
     if (invalid_ > 0)
       file.notes.push_back(std::to_string(invalid_) + " of " + std::to_string(count_) +
-                           " points are marked invalid by the file and left out");
+                           " points are marked invalid by the file and excluded");
     file.arrays.push_back(std::move(points));
     return file;
   }
@@ -69,7 +69,7 @@ class X3p {
     said = lower_case(said);
     if (const std::string sum = md5_of(bytes); sum != said)
       fail("the MD5 sum of " + name + " is " + sum + ", the file says " + said +
-           ": it was changed or damaged, take it from its source again");
+           ": it was changed or damaged; copy it again from its source");
   }
 
   double real(const pugi::xml_node& node, double otherwise) const {
@@ -77,7 +77,7 @@ class X3p {
     double value = 0.0;
     const char* text = node.text().get();
     if (!parse_number(trimmed(text, blanks_of_text), value))
-      fail(std::string("main.xml: ") + node.name() + " '" + text + "' is no finite number");
+      fail(std::string("main.xml: ") + node.name() + " '" + text + "' is not a finite number");
     return value;
   }
 
@@ -90,13 +90,13 @@ class X3p {
       Axis& axis = axes_[i];
       if (kind != "A" && kind != "I")
         fail(std::string("main.xml: the AxisType of ") + names[i] + " is '" + kind +
-             "', it is A (absolute) or I (incremental)");
+             "' must be A (absolute) or I (incremental)");
       axis.incremental = kind == "I";
       if (axis.incremental && i == 2) fail("main.xml: CZ must be absolute");
       const std::string type = node.child("DataType").text().get();
       if (!axis.incremental && type != "I" && type != "L" && type != "F" && type != "D")
         fail(std::string("main.xml: the DataType of ") + names[i] + " is '" + type +
-             "', it is I, L, F or D");
+             "' must be I, L, F or D");
       if (!axis.incremental) axis.type = type[0];
       axis.increment = real(node.child("Increment"), 1.0);
       axis.offset = real(node.child("Offset"), 0.0);
@@ -125,10 +125,10 @@ class X3p {
     for (const char c : text) {
       if (c < '0' || c > '9' || value > most_numbers)
         fail(std::string("main.xml: ") + node.name() + " '" + std::string(text) +
-             "' is no count of points that are read of one file");
+             "' is not a valid count of points for one file");
       value = 10 * value + static_cast<std::size_t>(c - '0');
     }
-    if (text.empty()) fail("main.xml says no size of its points");
+    if (text.empty()) fail("main.xml does not state the number of its points");
     return value;
   }
 
@@ -183,7 +183,7 @@ class X3p {
           stored[i] = std::nan("");
         else if (!parse_number(part, stored[i]) || (i != 2 && end == text.size()))
           fail("main.xml: Datum " + std::to_string(index + 1) + " '" + datum.text().get() +
-               "' is no point of these axes");
+               "' is not a point of these axes");
         text.remove_prefix(std::min(end + 1, text.size()));
       }
       if (index < count_) add(index, stored, points);
@@ -230,7 +230,7 @@ class X3p {
     expect_sum(name, bits, link.child("MD5ChecksumValidPoints").text().get());
     if (bits.size() != (count_ + 7) / 8)
       fail(name + " has " + std::to_string(bits.size()) + " bytes for " + std::to_string(count_) +
-           " points, a bit each");
+           " points, one bit each");
     return bits;
   }
 

@@ -26,7 +26,7 @@ ZipArchive::ZipArchive(std::string path, std::string_view bytes) : path_(std::mo
   const std::string why = zip_error_strerror(&error);
   zip_error_fini(&error);
   if (archive_ == nullptr)
-    throw InputError(path_, "is no whole zip archive (" + why + "): copy it again");
+    throw InputError(path_, "is not a complete zip archive (" + why + "): copy it again");
 }
 
 ZipArchive::~ZipArchive() { zip_discard(archive_); }
@@ -54,7 +54,7 @@ std::string ZipArchive::member(const std::string& name) {
     refuse("is not there");
   if (stat.size > most_bytes - unpacked_)
     refuse("would unpack to " + std::to_string(stat.size >> 20U) +
-           " MiB, more than is read of one file (2 GiB)");
+           " MiB, more than TrueAxis reads from one file (2 GiB)");
   if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && stat.encryption_method != ZIP_EM_NONE)
     refuse("is encrypted");
   // Deflate packs to a thousandth and a little at best: what says more is no archive that a

@@ -19,7 +19,7 @@ constexpr Threshold much_more_likely{"odds", 1e3, "1", "surfaces of parts are no
 constexpr Threshold more_likely{"odds", 20.0, "1", "among disagreements that no part has"};
 constexpr Threshold taken_to{"left", 0.2, "of the disagreement", "by a mistake that is named"};
 constexpr Threshold as_likely{"odds", 10.0, "1", "another mistake is named too"};
-constexpr const char* of_one_part = "beyond it the surfaces are not of one part as it stands";
+constexpr const char* of_one_part = "beyond it the surfaces cannot be those of one part";
 constexpr Threshold no_part_apart{"apart", 0.5, "mm", of_one_part};
 constexpr Threshold no_part_slope{"apart", 1e-3, "mm per mm between", of_one_part};
 constexpr Threshold no_part_tilt{"tilt", 0.01, "rad", of_one_part};

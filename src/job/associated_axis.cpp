@@ -58,7 +58,7 @@ class AxisDifference {
     const Element element = fit_.surface == SurfaceKind::cone ? Element::cone : Element::cylinder;
     const DatumAxis found = datum_axis(points, element, criterion, fit_.bore);
     if (!found.why.empty())
-      throw Refusal(fmt::format("the readings of {} give no axis of {}: {}", name_,
+      throw Refusal(fmt::format("the readings of {} do not give an axis of {}: {}", name_,
                                 name_of(criterion_), found.why));
     return found.axis;
   }
@@ -83,10 +83,10 @@ void expect_associable(const JobReference& reference, const ProbeStream& stream)
   if (reference.association.value_or(Criterion::gaussian) == Criterion::gaussian) return;
   const bool gauge = stream.indication == Indication::relative;
   if (gauge || list_set_ups(stream).size() > 1)
-    throw Refusal(fmt::format(
-        "the association of {} takes positions of one set-up, and {}: leave `association` out, or "
-        "give it a stream of X_M",
-        reference.name, gauge ? "its stream is a gauge's" : "there are several"));
+    throw Refusal(
+        fmt::format("the association of {} needs positions of one set-up, and {}: remove "
+                    "`association`, or give it a stream of X_M",
+                    reference.name, gauge ? "its stream is a gauge's" : "there are several"));
 }
 
 std::optional<AxisEstimate> associated_difference(const PlannedJob& result, std::size_t reference) {

@@ -139,11 +139,10 @@ void require_stock(const PlannedJob& result) {
     const auto over = overlap_mm(result, i);
     if (!over || (!face && result.fits[i].bore != result.job.target->bore)) continue;
     throw InputError(
-        "",
-        fmt::format("[target] stock_um is missing: from {} = {:.6g} to {:.6g} mm the target lies "
-                    "on the probed surface of {}: say how much may be removed there, {}",
-                    face ? "X" : "Z", over->first, over->second, result.job.references[i].name,
-                    face ? "along Z" : "in radius"));
+        "", fmt::format("[target] stock_um is missing: from {} = {:.6g} to {:.6g} mm the target "
+                        "lies on the probed surface of {}: state how much may be removed there, {}",
+                        face ? "X" : "Z", over->first, over->second, result.job.references[i].name,
+                        face ? "along Z" : "in radius"));
   }
 }
 

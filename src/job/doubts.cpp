@@ -20,7 +20,7 @@ namespace trueaxis {
 namespace {
 
 constexpr Threshold much_left{"left", 1.5, "of the noise",
-                              "5/9 of the sum of squares are no noise"};
+                              "5/9 of the sum of squares is not noise"};
 constexpr Threshold too_little{"left", 1e-4, "mm", "the last digit of a stream makes as much"};
 constexpr Threshold least_beats{"beats", 3.0, "turns over a pass",
                                 "a line that beats less with the spindle is one with the axis"};

@@ -15,10 +15,11 @@ namespace {
 constexpr std::size_t least_end = 8;  // readings: of fewer, all must have been left out
 constexpr Threshold mostly{"left_out", 0.5, "of a run", "most of it"};
 constexpr Threshold gathered{"gathered", 3.0, "times elsewhere", "outliers alone lie anywhere"};
-constexpr Threshold hardly{"by_chance", 1e-4, "of streams", "that a short run is all left out"};
+constexpr Threshold hardly{"by_chance", 1e-4, "of streams",
+                           "that a short run is excluded as a whole"};
 constexpr double limits[] = {3.0, 4.0};  // σ
 constexpr Threshold off_by_chance{"by_chance", 1e-3, "of streams",
-                                  "of both limits together, Eq. 275"};
+                                  "for both limits together, Eq. 275"};
 
 /// The longest run of readings at an end of a stream of which most were left out, and three times
 /// the share of all others; 0: outliers lie anywhere. A short one is a run where all of it was left

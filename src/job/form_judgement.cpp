@@ -21,7 +21,8 @@ FormJudgement judged(const char* what, const char* parameter, const char* refere
   if (!with || !without || !std::isfinite(most_of(*with, k)) ||
       !std::isfinite(most_of(*without, k))) {
     out.why = std::string("the readings give no ") + parameter;
-    if (!form.probed.radius_known) out.why += ": a gauge without nominal_radius shows no radius";
+    if (!form.probed.radius_known)
+      out.why += ": a gauge without nominal_radius does not show the radius";
     return out;
   }
   const bool ordered = most_of(*with, k) >= most_of(*without, k);

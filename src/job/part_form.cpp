@@ -96,8 +96,8 @@ void assess(Question& question, const FormTask& task, PartForm& out) {
     out.carried_upr = carried_upr(stream, options);
     if (out.carried_upr < 2 && task.filter != ProfileFilter::none) {
       out.why_not =
-          "the readings of a turn are too few for any filter, which takes 7 a wave, or a "
-          "part of the turn is missing";
+          "there are too few readings per revolution for a filter, which needs 7 per wave, or part "
+          "of the revolution is missing";
       return;
     }
     const auto [low, high] = band_of(task, out.carried_upr);
@@ -105,8 +105,9 @@ void assess(Question& question, const FormTask& task, PartForm& out) {
     options.high_upr = high;
     if (high > out.carried_upr && task.filter != ProfileFilter::none) {
       out.why_not = fmt::format(
-          "{:g} UPR takes {:.0f} readings a turn, 7 a wave, and these carry up to {} UPR", high,
-          7.0 * high, out.carried_upr);
+          "{:g} UPR needs {:.0f} readings per revolution, 7 per wave, and these support up to {} "
+          "UPR",
+          high, 7.0 * high, out.carried_upr);
       return;
     }
   }
@@ -127,8 +128,8 @@ PartForm part_form(const DiagnosedStream& part, const FitOptions& fit, const For
       return out;
     }
     if (part.stream.size() > (task.judges() ? most_to_judge : most_to_show)) {
-      out.why_not = fmt::format("of {} readings it takes its time: `trueaxis form` does it",
-                                part.stream.size());
+      out.why_not =
+          fmt::format("with {} readings it takes long: use `trueaxis form`", part.stream.size());
     } else {
       Question question(part, datum, fit);
       out.left_out = question.part().left_out();

@@ -76,7 +76,7 @@ Common common_axis(const PlannedJob& result, const NamesOfDatum& names, double z
   const Eigen::LDLT<Matrix4> solver(out.metric);
   if (solver.info() != Eigen::Success || !solver.isPositive() || !(solver.rcond() > 1e-14))
     throw Refusal(
-        "the readings of the datum leave its axis open: probe it at two heights at least");
+        "the readings of the datum do not determine its axis: probe it at two heights at least");
   for (Matrix4& share : out.share) share = solver.solve(share).eval();
   return out;
 }

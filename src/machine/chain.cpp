@@ -61,7 +61,8 @@ void check_end(const std::vector<Link>& links, char letter, bool first,
   const auto count = std::ranges::count(links, letter, &Link::letter);
   const std::string what = letter == 'w' ? "the workpiece `w`" : "the tool `t`";
   if (count == 0) {
-    troubles.push_back({0, "has not " + what + (first ? ": begin with it" : ": end with it")});
+    troubles.push_back(
+        {0, "does not have " + what + (first ? ": begin with it" : ": end with it")});
   } else if (count > 1 || (first ? links.front() : links.back()).letter != letter) {
     const auto last = std::ranges::find(links.rbegin(), links.rend(), letter, &Link::letter);
     troubles.push_back({last->at, "must have " + what + " once, as its " +
@@ -76,7 +77,7 @@ std::vector<MachineAxis> parse_chain(std::string_view chain, std::vector<ChainTr
   check_end(links, 'w', true, troubles);
   check_end(links, 't', false, troubles);
   const auto bed = std::ranges::find(links, 'b', &Link::letter);
-  if (bed == links.end()) troubles.push_back({0, "has not the bed `b` between w and t"});
+  if (bed == links.end()) troubles.push_back({0, "does not have the bed `b` between w and t"});
   std::vector<MachineAxis> axes;
   bool beyond_bed = false, bed_met = false;
   for (const Link& link : links) {
@@ -99,7 +100,7 @@ std::vector<MachineAxis> parse_chain(std::string_view chain, std::vector<ChainTr
     if (bed != links.end() && link.prime == beyond_bed)
       troubles.push_back(
           {link.at, "has `" + quoted(link) +
-                        (link.prime ? "` behind the bed: an axis of the tool has no prime"
+                        (link.prime ? "` after the bed: an axis of the tool does not have a prime"
                                     : "` before the bed: an axis of the workpiece has a prime '")});
     axes.push_back(
         {.name = name, .carries_workpiece = !beyond_bed, .direction = direction_of(name)});

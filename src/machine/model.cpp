@@ -57,7 +57,7 @@ void check(const Machine& machine, const ErrorModel& errors) {
     const std::string name = to_string(term.name);
     const bool of_axis = term.name.body < axis_count;
     if (of_axis && machine.find(static_cast<AxisName>(term.name.body)) == nullptr) {
-      wrong.push_back({"errors", 0, 0, name + " is of an axis that the machine has not"});
+      wrong.push_back({"errors", 0, 0, name + " refers to an axis this machine does not have"});
     } else if (!term.name.component && !std::holds_alternative<ConstantError>(term.function)) {
       wrong.push_back({"errors", 0, 0, name + " is a location error: a constant"});
     } else if (without_effect(term.name) && value_at(term.function, 0.0) != 0.0) {

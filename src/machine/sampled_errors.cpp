@@ -35,8 +35,8 @@ std::vector<double> positions_of(const MachineAxis& axis, Needs needs, int point
   if (!limited && is_rotary(axis.name)) low = 0.0, high = two_pi;
   if (needs.smooth && !limited && !is_rotary(axis.name))
     throw InputError("machine", std::string("axis ") + letter_of(axis.name) +
-                                    " needs limits_mm: its errors are no tables and are written "
-                                    "as one over its travel");
+                                    " needs limits_mm: its errors are not tables and are written "
+                                    "as a table over its travel");
   for (int i = 0; needs.smooth && i < points; ++i)
     needs.positions.push_back(i + 1 == points ? high : low + (high - low) * i / (points - 1));
   if (needs.positions.empty()) needs.positions = {0.0, 1.0};

@@ -65,8 +65,9 @@ Vector3d tilt_between(const Vector3d& u, const Vector3d& v, Eigen::Index own, ch
     w[second] += step[1];
   }
   if ((rigid::exponential(w) * u - v).norm() < 4e-15) return w;  // rounding
-  throw InputError("dh", std::string("errors of the rows before axis ") + letter +
-                             " cannot be said as location errors: its line lies across its letter");
+  throw InputError("dh",
+                   std::string("errors of the rows before axis ") + letter +
+                       " cannot be expressed as location errors: its line is not along its letter");
 }
 
 Vector3d vector_of_rotation(const Eigen::Matrix3d& R) {

@@ -111,8 +111,8 @@ std::string stuck_probe(const ProbeStream& stream) {
   if (expected > rows_by_chance || saturates(stream, longest)) return "";
   return fmt::format(
       "{} shows {:.9g} mm in {} readings without a break (data rows {} to {}) while C turns by "
-      "{:.3g} revolutions: the probe was stuck, off the part or not connected. Leave these rows "
-      "out, or probe again",
+      "{:.3g} revolutions: the probe was stuck, off the part or not connected. Remove these rows, "
+      "or probe again",
       stream.kind == StreamKind::face ? "Z_M" : "X_M", stream.reading_mm[longest.begin],
       longest.size(), longest.begin + 1, longest.end, longest.turned_rad / two_pi);
 }
@@ -141,8 +141,8 @@ std::string repeated_rows(const ProbeStream& stream) {
   }
   if (static_cast<double>(repeated) > often * static_cast<double>(stream.size()))
     return fmt::format(
-        "{} of {} rows repeat the row before: as readings of their own they would make every U too "
-        "small. Leave the copies out",
+        "{} of {} rows repeat the row before: as separate readings they would make every U too "
+        "small. Remove the copies",
         repeated, stream.size());
   if (static_cast<double>(held) <= often * static_cast<double>(stream.size()) ||
       changes.size() < shown_run)
@@ -152,8 +152,7 @@ std::string repeated_rows(const ProbeStream& stream) {
   if (usual < many_steps * least) return "";
   return fmt::format(
       "X_M stays the same in {:.0f} % of the rows while C turns, and then changes by {:.2g} µm: "
-      "the "
-      "probe is read more slowly than C. Leave out the rows in which it was not read anew",
+      "the probe is read more slowly than C. Remove the rows in which it was not read anew",
       100.0 * static_cast<double>(held) / static_cast<double>(stream.size()), usual / mm_per_um);
 }
 
@@ -203,7 +202,7 @@ std::string lost_decimal_point(const ProbeStream& stream) {
     if (rows.size() < (&values == &stream.reading_mm ? 4U : 2U)) continue;
     return fmt::format(
         "{} values of {} are a power of ten off their neighbours (the first in data row {}): a "
-        "decimal point was lost. Correct them, or leave these rows out",
+        "decimal point was lost. Correct them, or remove these rows",
         rows.size(), name, rows.front());
   }
   return "";

@@ -72,14 +72,14 @@ class Sorter {
     for (const int other : block_.g_tenths)
       if (group_of(other) == group || (is_cycle(other) && group == Group::motion) ||
           (is_cycle(tenths) && group_of(other) == Group::motion))
-        return complain(word, name + " stands beside another G code of its group: keep one");
+        return complain(word, name + " is in one block with another G code of its group: keep one");
     block_.g_tenths.push_back(tenths);
   }
 
   void take_m(const Word& word) {
     const int tenths = tenths_of(word.number);
     if (tenths < 0 || tenths % 10 != 0)
-      return complain(word, code_text(word, tenths) + " is no M code: M has a whole number");
+      return complain(word, code_text(word, tenths) + " is not an M code: M needs a whole number");
     if (const std::string_view why = why_not_m(tenths / 10); !why.empty())
       return complain(word, code_text(word, tenths) + ' ' + std::string(why));
     block_.m.push_back(tenths / 10);
@@ -88,14 +88,15 @@ class Sorter {
   void take(const Word& word) {
     const Word*& place = block_.by_letter[static_cast<std::size_t>(word.letter - 'A')];
     if (place != nullptr)
-      return complain(word, std::string(1, word.letter) + " stands twice in the block: keep one");
+      return complain(word, std::string(1, word.letter) + " is twice in the block: keep one");
     place = &word;
     const std::size_t axis = axis_of(word.letter);
     const bool known = axis < axis_count && has(rules_.axes, axis);
     const bool dwell = word.letter == 'X' && block_.has_g(g_dwell);
     if ((axis < axis_count && !known && !dwell) ||
         std::string_view("UVW").find(word.letter) != std::string_view::npos)
-      return complain(word, std::string(1, word.letter) + " is no axis of the machine, which has " +
+      return complain(word, std::string(1, word.letter) +
+                                " is not an axis of the machine, which has " +
                                 names_of(rules_.axes));
     if (known) block_.named |= only(axis);
   }

@@ -82,7 +82,7 @@ class LineReader {
     if (is_digit(c) || c == '.' || c == '+' || c == '-')
       return give_up("a number without its letter");
     if (!is_letter(c))
-      return give_up("a character that is no part of a program outside of comments");
+      return give_up("a character that is not allowed in a program outside of comments");
     Word word;
     word.letter = upper_case(c);
     word.letter_at = at_++;

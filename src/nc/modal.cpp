@@ -14,7 +14,7 @@ constexpr std::string_view zero =
     "moves the zero: put it into [workpiece] of the machine and use G54 to G59";
 constexpr std::string_view turned =
     "turns the frame of the words: put it into [workpiece] as rotation_deg";
-constexpr std::string_view macro = "calls blocks that stand elsewhere: write them out";
+constexpr std::string_view macro = "calls blocks in another place: write them out";
 
 struct Code {
   int tenths;

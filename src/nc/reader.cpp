@@ -177,7 +177,7 @@ class Reader {
   void check_dwell() {
     if (block_.has_g(g_dwell)) {
       if ((block_.named & ~only(0)) != 0 || (block_.named != 0 && block_.word('P') != nullptr))
-        complain(first_axis_word(), "axis words beside G4: give them a block of their own");
+        complain(first_axis_word(), "axis words with G4: give them a block of their own");
       return;
     }
     if (block_.has_g(g_home) || block_.has_g(g_second_home)) leave();

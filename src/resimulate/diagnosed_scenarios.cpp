@@ -132,8 +132,8 @@ DiagnosedScenarios diagnosed_scenarios(const Diagnosis& diagnosis, const ProbeSt
   common.u_start_mm = frame.z_mid_mm - frame.z_half_mm;
   common.u_end_mm = frame.z_mid_mm + frame.z_half_mm;
   DiagnosedScenarios out{common, common};
-  out.before.name = "the ideal surface of " + diagnosis.baseline.source;
-  out.after.name = "the extended model of " + diagnosis.baseline.source;
+  out.before.name = "the ideal fit of " + diagnosis.baseline.source;
+  out.after.name = "the final fit of " + diagnosis.baseline.source;
   place_part(diagnosis.baseline, measured, out.before);
   place_part(diagnosis.named, measured, out.after);
   const auto add = [&](const TermValue& term) {

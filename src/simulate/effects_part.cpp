@@ -69,7 +69,7 @@ constexpr EffectEntry part_table[] = {
      })},
     {"part.slip",
      "step of the part in the chuck at a time, tilt about Z = middle; 'ends' 1: the part is "
-     "described as it stands after",
+     "described as it is after the step",
      {{"time_s", {}},
       {"dx_mm", 0.0},
       {"dy_mm", 0.0},

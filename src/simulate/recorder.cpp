@@ -45,7 +45,7 @@ void validate(const Part& part) {
     need(!part.apex_mm || part.half_angle_rad > 0.0,
          "with an apex the half angle must be more than 0; the side of the apex says how it opens");
   }
-  need(part.kind != PartKind::face || !part.bore, "a face is no bore");
+  need(part.kind != PartKind::face || !part.bore, "a face cannot be a bore");
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 

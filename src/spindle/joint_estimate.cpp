@@ -132,8 +132,8 @@ void JointEstimate::fit() {
   }
   if (order_max_ < 2)
     throw InputError(runs_.front().stream,
-                     "too few readings a turn, or angles that leave a part of the turn out: "
-                     "record at least 6 readings evenly around the turn");
+                     "too few readings per revolution, or part of the revolution is missing: "
+                     "record at least 6 readings evenly around the revolution");
   for (std::size_t r = 0; r < runs_.size(); ++r) parts_.push_back(fits_[r](runs_[r].columns_mm));
 }
 

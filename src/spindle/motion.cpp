@@ -32,9 +32,9 @@ SpindleHarmonic harmonic_of(const JointEstimate& all, const OrderSolution& one, 
 std::string why_suppressed(const OrderSolution& one) {
   if (std::ranges::find(one.determined, false) == one.determined.end()) return "";
   if (!std::isfinite(one.condition))
-    return "the layout reads form and motion of this order as one (singular)";
+    return "the layout cannot separate form and motion of this order (singular)";
   return fmt::format(
-      "condition number {:.0f} above {:.0f}: noise and angles would be enlarged beyond use",
+      "condition number {:.0f} above {:.0f}: errors of noise and angles would become too large",
       one.condition, one.largest_condition);
 }
 
@@ -132,38 +132,37 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
                std::vector<std::string>& notes) {
   const std::string which = all.axial() ? "axial: " : "";
   if (all.order_max() < options.order_max)
-    notes.push_back(
-        fmt::format("{}the readings of a turn carry orders up to {}: above it nothing is said",
-                    which, all.order_max()));
+    notes.push_back(fmt::format(
+        "{}the readings of a revolution support orders up to {}: higher orders are not computed",
+        which, all.order_max()));
   if (!all.axial())
     notes.push_back(
-        "order 1 is the part's eccentricity and the spindle's fundamental motion as one; ISO 230-7 "
-        "has no radial error motion of order 1");
+        "order 1 is the part's eccentricity together with the spindle's fundamental motion; ISO "
+        "230-7 does not define a radial error motion of order 1");
   if (!all.axial() && !all.layout().has_across())
-    notes.push_back(fmt::format("the motion is known along {:g}° only, the line of the sensors",
+    notes.push_back(fmt::format("the motion is known only along {:g}°, the line of the sensors",
                                 all.sensitive_rad() / rad_per_deg));
   if (!all.axial() && !all.has_radius())
     notes.push_back(
-        "no radius is known, so that what eccentricity adds to order 2 (e²/4R) stays in the form: "
-        "state nominal_radius");
+        "the radius is not known, so the form includes the part of order 2 that eccentricity adds "
+        "(e²/4R): state nominal_radius");
   if (all.axial() && !all.runs().front().on_axis)
     notes.push_back(all.layout().has_form()
-                        ? "axial: order 1 is the squareness of the face and the fundamental motion "
-                          "as one: for the latter read at X = 0"
-                        : "axial: off the axis one sensor in one set-up reads the face's form with "
-                          "the motion, which holds both: read at X = 0 or re-index the part");
+                        ? "axial: order 1 is the squareness of the face together with the "
+                          "fundamental motion: to measure the latter, read at X = 0"
+                        : "axial: off the axis one sensor in one set-up reads the face's form "
+                          "together with the motion: read at X = 0 or re-index the part");
   if (options.u_angle_rad == 0.0 && !all.axial() && all.layout().has_across())
-    notes.push_back("the sensors' angles are taken as exact: state their u (--u-angle-deg)");
+    notes.push_back("the sensors' angles are treated as exact: state their u (--u-angle-deg)");
   if (all.widening() > 1.0)
     notes.push_back(fmt::format(
-        "{}sensors and set-ups contradict each other, χ²/ν = {:.1f}: every u is widened by {:.2f}; "
-        "look at the angles, the sensors' gains and whether the part kept its form",
+        "{}sensors and set-ups contradict each other, χ²/ν = {:.1f}: TrueAxis widens every u by "
+        "{:.2f}; check the angles, the sensors' gains and whether the part kept its form",
         which, all.disagreement(), all.widening()));
   for (const RunReadings& run : all.runs())
     if (run.left_out > 0)
       notes.push_back(
-          fmt::format("{}: {} readings of set-up {} lie far from all others and are "
-                      "left out",
+          fmt::format("{}: {} readings of set-up {} lie far from all others and are excluded",
                       run.stream, run.left_out, run.set_up.number));
 }
 

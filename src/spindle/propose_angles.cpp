@@ -102,8 +102,8 @@ class AngleSearch {
     }
     if (best.empty())
       throw InputError("advise",
-                       "so many sensors do not fit that far apart: take fewer, or let "
-                       "them stand nearer (--min-separation-deg)");
+                       "so many sensors do not fit at this separation: use fewer, or reduce it "
+                       "(--min-separation-deg)");
     return best;
   }
 
@@ -161,8 +161,8 @@ std::vector<double> propose_sensor_angles(const ProposeOptions& options) {
                      "set-up (with two, or one, re-index or reverse the part)");
   if (options.sensors * options.least_apart_rad > two_pi * (1.0 + 1e-9))
     throw InputError("advise",
-                     "so many sensors do not fit that far apart: take fewer, or let them "
-                     "stand nearer (--min-separation-deg)");
+                     "so many sensors do not fit at this separation: use fewer, or reduce it "
+                     "(--min-separation-deg)");
   std::vector<double> out;
   for (const int tenths : AngleSearch(options).best_of(static_cast<std::size_t>(options.sensors)))
     out.push_back(two_pi * tenths / grid);

@@ -51,7 +51,7 @@ class StreamChecks {
                       " mm: record the motion of the spindle at one " + axis);
     else if (place && std::abs(*place - extent.low) > one_place_mm)
       add(stream, axis + " is " + text_of(extent.low) + " mm here and " + text_of(*place) +
-                      " mm in a stream before: one estimate is of one " + axis);
+                      " mm in a previous stream: one estimate needs one " + axis);
     if (!place) place = extent.low;
   }
 
@@ -66,14 +66,15 @@ class StreamChecks {
       if (speed == 0.0 && stream.spindle_rpm) speed = *stream.spindle_rpm / 60.0 * two_pi;
       if (sign_ != 0 && pass.c_sign != sign_)
         return add(stream,
-                   "C runs the other way than before: error motion is of one sense of "
-                   "rotation, separate each sense alone");
+                   "C runs in the opposite direction to the previous stream: error motion depends "
+                   "on the sense of rotation, so separate each sense alone");
       sign_ = pass.c_sign;
       if (speed == 0.0) continue;
       if (speed_ && std::abs(speed / *speed_ - 1.0) > same_speed)
-        return add(stream, "the spindle turns at " + text_of(std::abs(speed) / two_pi * 60.0) +
-                               " rpm here and at " + text_of(std::abs(*speed_) / two_pi * 60.0) +
-                               " before: error motion is of one speed, separate each speed alone");
+        return add(stream,
+                   "the spindle turns at " + text_of(std::abs(speed) / two_pi * 60.0) +
+                       " rpm here and at " + text_of(std::abs(*speed_) / two_pi * 60.0) +
+                       " before: error motion depends on the speed, so separate each speed alone");
       if (!speed_) speed_ = speed;
     }
   }
@@ -86,7 +87,7 @@ class StreamChecks {
       add(stream,
           name + " is clamped with another force, which changes the form: separate it alone");
     if (set_up.rear && stream.kind == StreamKind::face)
-      add(stream, name + " is probed from behind: a face has no rear side");
+      add(stream, name + " is probed from the rear: a face does not have a rear side");
   }
 
   /// Of readings of positions their sign tells on which side of the axis the sensor stands.
@@ -96,21 +97,21 @@ class StreamChecks {
     std::size_t outside = 0;
     for (const auto& column : run.columns_mm) outside += mean_of(column) > 0.0;
     if (outside == run.columns_mm.size()) return;
-    add(stream, outside > 0
-                    ? "in " + name +
-                          " some sensors read more than 0 and others less: each is to "
-                          "read outwards from the spindle axis at its own angle"
-                    : name +
-                          " is said to be probed from behind, and X_M is more than 0: behind it "
-                          "is counted along +X as ever, or is the part only turned?");
+    add(stream, outside > 0 ? "in " + name +
+                                  " some sensors read more than 0 and others less: each must read "
+                                  "outwards from the spindle axis at its own angle"
+                            : name +
+                                  " is stated as probed from the rear, but X_M is more than 0: on "
+                                  "the rear side X_M is negative, counted along +X. Correct X_M, "
+                                  "or remove the side if the part is only turned");
   }
 
   void enough(const ProbeStream& stream, const RunReadings& run) {
     if (run.c_rad.size() < 2 || run.turns() < least_turns)
       add(stream, "set-up " + std::to_string(run.set_up.number) + " has " +
                       text_of(run.c_rad.size() < 2 ? 0.0 : run.turns()) +
-                      " turns: record at least 4 (20 and more are usual), or nothing is known of "
-                      "what does not repeat");
+                      " turns: record at least 4 (20 and more are usual) to determine the motion "
+                      "that does not repeat");
   }
 
   /// A recording that is given twice would count as two.
@@ -133,7 +134,7 @@ class StreamChecks {
         });
         if (same != seen.end()) {
           wrong_.push_back({run.stream, 0, 0,
-                            name_of(one) + " has the very readings of " + name_of(*same) +
+                            name_of(one) + " has the same readings as " + name_of(*same) +
                                 ": give each recording once"});
           return;
         }
@@ -225,9 +226,10 @@ double sensitive_direction(std::span<const RunReadings> runs, std::optional<doub
   const double line = off_line(first, 0.0) ? first : 0.0;
   if (wanted_rad && off_line(*wanted_rad, first))
     throw InputError(runs.front().stream,
-                     "all sensors stand on the line at " + text_of(first / rad_per_deg) +
-                         " deg and see no motion along " + text_of(*wanted_rad / rad_per_deg) +
-                         " deg: place one there, or ask for their own direction");
+                     "all sensors are on the line at " + text_of(first / rad_per_deg) +
+                         " deg and do not measure motion along " +
+                         text_of(*wanted_rad / rad_per_deg) +
+                         " deg: place one there, or choose their own direction");
   return wanted_rad.value_or(line);
 }
 
@@ -259,7 +261,7 @@ Layout layout_of(std::span<const RunReadings> runs, double sensitive_rad) {
     throw InputError(
         runs.front().stream,
         count == 1
-            ? "one sensor in one set-up shows form and motion as one: add sensors (`trueaxis "
+            ? "one sensor in one set-up cannot separate form and motion: add sensors (`trueaxis "
               "spindle --advise`), a reversal or re-indexed set-ups"
             : std::to_string(count) + " sensors in all, and form, motion along X and along Y are " +
                   std::to_string(layout.unknowns()) +

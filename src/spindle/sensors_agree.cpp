@@ -30,18 +30,18 @@ void check_sensors_agree(std::span<const RunReadings> runs, std::span<const Sync
     const std::complex<double> first = z(0, 1);
     const double blurred = times_motion * others / std::abs(first);
     if (run.angles_rad.size() > 1 && blurred > noted_rad)
-      notes.push_back(fmt::format(
-          "{}: beside the other orders the eccentricity shows the sensors' angles to {:.0f}° only: "
-          "a smaller error of them is not seen",
-          run.stream, std::max(2.0 * blurred, refused_rad) / rad_per_deg));
+      notes.push_back(
+          fmt::format("{}: the eccentricity shows the sensors' angles only to {:.0f}° because of "
+                      "the other orders: a smaller error remains undetected",
+                      run.stream, std::max(2.0 * blurred, refused_rad) / rad_per_deg));
     for (std::size_t s = 1; s < run.angles_rad.size(); ++s) {
       const std::complex<double> seen = z(static_cast<Eigen::Index>(s), 1) / first;
       const double stated_rad = run.angles_rad[s] - run.angles_rad[0];
       const double off_rad = apart_rad(std::arg(seen), stated_rad);
       const double seen_deg = std::fmod(std::arg(seen) / rad_per_deg + 360.0, 360.0);
       const std::string what = fmt::format(
-          "by the eccentricity sensor {} stands {:.1f}° from sensor 1, and {:.1f}° is stated",
-          s + 1, seen_deg, std::fmod(stated_rad / rad_per_deg + 720.0, 360.0));
+          "from the eccentricity, sensor {} is {:.1f}° from sensor 1, but {:.1f}° is stated", s + 1,
+          seen_deg, std::fmod(stated_rad / rad_per_deg + 720.0, 360.0));
       const double gain = std::abs(seen);
       if (off_rad > std::max(refused_rad, 2.0 * blurred)) {
         wrong.push_back({run.stream, 0, 0,
@@ -50,10 +50,10 @@ void check_sensors_agree(std::span<const RunReadings> runs, std::span<const Sync
       } else if (off_rad > std::max(noted_rad, blurred)) {
         notes.push_back(run.stream + ": " + what);
       } else if (std::abs(gain - 1.0) > std::max(noted_gain, blurred)) {
-        notes.push_back(fmt::format(
-            "{}: sensor {} shows the eccentricity {:.3g} times as large as sensor 1: is its gain "
-            "right?",
-            run.stream, s + 1, gain));
+        notes.push_back(
+            fmt::format("{}: sensor {} shows the eccentricity {:.3g} times as large as sensor 1: "
+                        "check its gain",
+                        run.stream, s + 1, gain));
       }
     }
   }

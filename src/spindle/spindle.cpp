@@ -39,7 +39,7 @@ SpindleResult separate_spindle(std::span<const ProbeStream> streams,
   };
   if (leaves_out(result.radial) || leaves_out(result.axial))
     result.notes.push_back(
-        "the suppressed orders are in none of the values, which may be larger for them");
+        "the values do not include the suppressed orders and may be larger with them");
   return result;
 }
 

@@ -32,7 +32,7 @@ struct Member {
 struct Score {
   Outcome outcome = Outcome::crash;
   std::vector<std::string>
-      named;                    ///< per true effect the finding that holds it, or what stands there
+      named;                    ///< per true effect the cause that holds it, or what stands there
   std::vector<Member> members;  ///< all listed rivals of all truths
   bool strict = true;           ///< every member within the demanded distance
 };

@@ -14,7 +14,7 @@ TEST_F(AdviseCommand, AConeThatIsACylinderIsAdvisedToBeOne) {
   const std::string stream = data + "/streams/shaft_cylinder_seat.csv";
   const CommandStreams cone = command("advise " + stream + " --surface cone");
   EXPECT_EQ(cone.exit_code, 4);
-  EXPECT_TRUE(contains(cone.out, "take it for a cylinder: --surface cylinder")) << cone.out;
+  EXPECT_TRUE(contains(cone.out, "fit a cylinder: --surface cylinder")) << cone.out;
   EXPECT_FALSE(contains(cone.out, "All plans")) << cone.out;
   // What it advises ends well, and a cone that is one is not told to be a cylinder.
   EXPECT_EQ(command("advise " + stream + " --surface cylinder").exit_code, 0);

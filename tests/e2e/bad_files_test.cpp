@@ -92,19 +92,20 @@ TEST_F(BadJob, WhatNoCutCanBe) {
   const std::string cylinder = "[target]\nsurface = \"cylinder\"\nradius_mm = 28\nz_start_mm = 0\n";
   expect_refused("", {"`reference` in the top level is missing: add a [[reference]]"});
   expect_refused("[reference]\nstream = \"part.csv\"\n", {"begin each with [[reference]]"});
-  expect_refused("x = [\n", {"job.toml:1:7: is no TOML"});
+  expect_refused("x = [\n", {"job.toml:1:7: is not valid TOML"});
   expect_refused("[[reference]]\nstream = \"\"\nsurface = \"cone\"\n",
                  {"job.toml:2:10: `stream` is empty"});
   expect_refused("[[reference]]\nstream = \"part.csv\"\nsurface = \"ball\"\n",
                  {"job.toml:3:11: `surface` is an unknown surface 'ball'"});
-  expect_refused(reference + "[cut]\nspeed_rpm = 600\n", {"`cut` is of no use without a [target]"});
+  expect_refused(reference + "[cut]\nspeed_rpm = 600\n",
+                 {"`cut` has no effect without a [target]"});
   expect_refused(reference + cylinder + "z_end_mm = 1e9\n" + cut + "0.1\n",
                  {"makes a table of 3.6e+12 rows"});
   expect_refused(reference +
                      "[target]\nsurface = \"face\"\nfeature = \"bore\"\nz_mm = 0\n"
                      "radius_start_mm = 9\nradius_end_mm = 5\n" +
                      cut + "0.1\n",
-                 {"`feature` is of no use: a face is neither shaft nor bore"});
+                 {"`feature` has no effect: a face is neither shaft nor bore"});
   expect_refused(reference + cylinder + "z_end_mm = 9\n" + cut +
                      "0.1\n[[actuator.response]]\nfrequency_hz = 0\ngain = 1\nphase_deg = 0\n",
                  {"has one point at 0 Hz"});
@@ -147,7 +148,7 @@ TEST_F(BadFit, IsToldFromAFit) {
   expect_refused("", "bad.json: cannot be read as trueaxis.fit/1");
   expect_refused("[1, 2", "bad.json: cannot be read as trueaxis.fit/1");
   expect_refused("{}", "schema");
-  expect_refused("{\"schema\": \"trueaxis.run/2\"}", "is no trueaxis.fit/1");
+  expect_refused("{\"schema\": \"trueaxis.run/2\"}", "is not a trueaxis.fit/1");
   for (const char* broken : {"/axis/x/value", "/axis/covariance/matrix/0/0", "/status"}) {
     nlohmann::json fit = good;
     fit[nlohmann::json::json_pointer(broken)] = nullptr;

@@ -231,7 +231,8 @@ TEST_F(ControlFiles, ALineThatIsHeldIsCounted) {
   const CommandStreams coarse =
       run(job("[[output]]\nformat = \"halstreamer\"\n", "rows_per_revolution = 60\n"));
   EXPECT_EQ(coarse.exit_code, 1) << coarse.out;
-  EXPECT_TRUE(contains(coarse.out, "halstreamer.txt would do with rows_per_revolution = "))
+  EXPECT_TRUE(
+      contains(coarse.out, "halstreamer.txt keeps the tolerance with rows_per_revolution = "))
       << coarse.out;
 }
 

@@ -97,7 +97,7 @@ TEST_F(DrillingCycles, RefusesWhatControlsDisagreeAbout) {
       {"G18 G81 X1 Z-5 R2", "G17"},
       {"G93 G81 X1 Z-5 R2 F2", "G93"},
       {"G81 X1 Z-5 R2 M9", "a block of its own"},
-      {"G0 G81 X1 Z-5 R2", "beside another G code"},
+      {"G0 G81 X1 Z-5 R2", "in one block with another G code"},
       {"G81 X1 Z-5 R2 P1", "P has no meaning"},
       {"G81 F100", "without a hole"},
       {"G84 X1 Z-5 R2", "canned cycle that is not read"},

@@ -191,7 +191,7 @@ TEST_F(EndsOfCut, AShoulderIsNotRunInto) {
                         "surface = \"face\"\nz_mm = 80\nradius_start_mm = 25\n"
                         "radius_end_mm = 1\noverrun_mm = 2\n",
                         0, 0, "+c"}));
-  expect_input_error("run job.toml -o face", "takes the tool 1 mm past the spindle axis");
+  expect_input_error("run job.toml -o face", "moves the tool 1 mm past the spindle axis");
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ TEST_F(ErrorsFiles, AsLargeAsNoMachineHasThemOnlyWhereItIsSaid) {
 // Errors that do not say their machine are taken for those of the one that is given, and that is
 // said by every command that uses them; errors of a workpiece hold on any machine.
 TEST_F(ErrorsFiles, ThatDoNotSayTheirMachineAreTakenWithAWord) {
-  const std::string said = "own.toml does not say of which machine its errors are",
+  const std::string said = "own.toml does not name the machine of its errors",
                     head = "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n";
   file("own.toml", head + "[[error]]\nname = \"X0C\"\nvalue_um = 25\n");
   file("part.toml", head + "[[error]]\nname = \"X0W\"\nvalue_um = 25\n");

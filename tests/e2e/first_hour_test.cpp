@@ -67,7 +67,7 @@ nlohmann::json data_of(const std::string& page) {
 TEST_F(FirstHour, FromTheExportToTheReportInOneCommand) {
   const CommandStreams done = command("run export.csv --diameter -o result");
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
-  EXPECT_TRUE(contains(done.out, "taken for a cylinder")) << done.out;
+  EXPECT_TRUE(contains(done.out, "surface assumed: cylinder")) << done.out;
   EXPECT_TRUE(contains(done.out, "report result/report.html")) << done.out;
   expect_axis(result("result/result.json").at("references").at(0).at("fit"));
   const std::string page = read_text(folder_ / "result/report.html");

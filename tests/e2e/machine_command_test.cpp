@@ -138,7 +138,7 @@ TEST_F(MachineCommand, OtherMakersTablesGoThereAndBack) {
           "machine pose --machine " + machine + positions + " --errors " + name + " --sign " + sign,
           before, 2e-7);
       expect_input_error("machine pose --machine " + machine + positions + " --errors " + name,
-                         "does not say the sign");
+                         "does not state the sign");
     }
   }
 }
@@ -198,15 +198,15 @@ TEST_F(ForeignTables, RefuseWhatIsWrong) {
        "[EYX]\nGridpoints = {\n1 2 3\n");
   expect_all(
       pose + "e.txt",
-      {"e.txt:1: stands in no block", "e.txt:2: the block [EXQ] is \"EXQ\", which is no error",
+      {"e.txt:1: stands in no block", "e.txt:2: the block [EXQ] is \"EXQ\", which is not an error",
        "e.txt:4: a block without", "e.txt:6: Y0X has no effect", "e.txt:8: X0C has a VALUE",
-       "e.txt:10: arguments must ascend", "e.txt:14: \"1 2 3\" is no row", "is not closed"});
+       "e.txt:10: arguments must ascend", "e.txt:14: \"1 2 3\" is not a row", "is not closed"});
   file("e.csv",
        "X Z EXX\n0 0 1\n1 0\n#\nX EYY\n0 1\n1 1\n#\nX0C EXX\n1 2\n3 4\n#\nB EXB\n2 1\n1 1\n");
   expect_all(pose + "e.csv",
-             {"e.csv:1: Z is a second argument", "e.csv:3: is no row of 3 numbers",
-              "e.csv:5: EYY is no function of X", "e.csv:9: has no axis as its first column",
-              "e.csv:13: B is no axis of the machine", "e.csv:15: the argument must ascend"});
+             {"e.csv:1: Z is a second argument", "e.csv:3: is not a row of 3 numbers",
+              "e.csv:5: EYY is not a function of X", "e.csv:9: has no axis as its first column",
+              "e.csv:13: B is not an axis of the machine", "e.csv:15: the argument must ascend"});
 }
 
 TEST_F(ForeignTables, NeedLimitsAndASign) {
@@ -248,12 +248,12 @@ TEST_F(MachineCommand, RefusesAMachineWithAllThatIsWrong) {
               "has the axis X twice", "bad.toml:3:1: the top level has no key `nam`, did you mean",
               "bad.toml:5:13: `direction` has no length", "has no key `point`, did you mean",
               "bad.toml:8:12: `point_mm` has no meaning for a linear axis",
-              "`limits_mm` must hold two numbers", "`B` is no axis of the chain",
+              "`limits_mm` must hold two numbers", "`B` is not an axis of the chain",
               "did you mean `length_mm`", "`program` in the top level is missing"});
   file("nobed.toml", "schema = \"trueaxis.machine/1\"\nchain = \"X Y\"\n[program]\n");
   expect_all("machine pose --machine nobed.toml q.csv",
-             {"has not the bed `b`", "has not the workpiece `w`", "has 2 axes: three to six",
-              "[program] needs `mode`"});
+             {"does not have the bed `b`", "does not have the workpiece `w`",
+              "has 2 axes: three to six", "[program] needs `mode`"});
 }
 
 TEST_F(MachineCommand, RefusesErrorsWithAllThatIsWrong) {
@@ -268,8 +268,8 @@ TEST_F(MachineCommand, RefusesErrorsWithAllThatIsWrong) {
        "[[error]]\nname = \"X0C\"\nkind = \"polynomial\"\ncoefficients_um = [1]\n");
   expect_all(
       "machine pose --machine m.toml q.csv --errors bad.toml",
-      {"needs `sign`", "has no key `B`", "bad.toml:4:8: `name` is \"EXQ\", which is no error",
-       "\"EXB\", of an axis that the machine has not", "needs `value_deg`",
+      {"needs `sign`", "has no key `B`", "bad.toml:4:8: `name` is \"EXQ\", which is not an error",
+       "\"EXB\", of an axis this machine does not have", "needs `value_deg`",
        "has no key `value`, did you mean", "must be 0: Y0X has no effect", "must ascend",
        "as many numbers as there are positions", "a list of rows of 3 numbers", "needs `period_mm`",
        "must be \"constant\": X0C"});
@@ -288,7 +288,7 @@ TEST_F(MachineCommand, RefusesPositionsWithAllThatIsWrong) {
   file("q.csv", "X[mm],Y,Z[deg],A[deg],A[deg],B[deg]\n0,0,0,0,0\n0,0,0,0,nan,0\n");
   expect_all("machine pose --machine m.toml q.csv",
              {"q.csv:1: \"Y\" needs its unit: write Y[mm]", "\"Z[deg]\" needs its unit",
-              "\"A[deg]\" is there twice", "\"B[deg]\" is no axis", "has no column C[deg]",
+              "\"A[deg]\" is given twice", "\"B[deg]\" is not an axis", "has no column C[deg]",
               "q.csv:2: has 5 numbers, the header 6 columns", "q.csv:3: \"nan\""});
   file("cl.csv", "x,y,z,i,j\n0,0,0,0,0\n");
   expect_all("machine inverse --machine m.toml cl.csv", {"has no column k"});

@@ -80,10 +80,11 @@ TEST(MachineDiagnosisCommand, SaysTheTermWithItsNumbers) {
 TEST(MachineDiagnosisCommand, SaysWhatIsBehindEveryId) {
   const json d = diagnosed();
   const json& effects = d.at("effects");
-  EXPECT_EQ(effects.at("EXC.harmonic2"), json({{"title", "along X, as C moves, 2 times a turn"},
-                                               {"kind", "position"},
-                                               {"axis", "C"},
-                                               {"error", "EXC"}}));
+  EXPECT_EQ(effects.at("EXC.harmonic2"),
+            json({{"title", "along X, as C moves, 2 times per revolution"},
+                  {"kind", "position"},
+                  {"axis", "C"},
+                  {"error", "EXC"}}));
   EXPECT_EQ(effects.at("reversal.C").at("kind"), "sense");
   EXPECT_EQ(effects.at("reversal.C").at("axis"), "C");
   EXPECT_EQ(effects.at("drift.Z").at("kind"), "tip_drift");
@@ -209,7 +210,7 @@ TEST(MachineDiagnosisCommand, RefusesWhatCannotBeRight) {
   const auto ran = trueaxis_command("machine diagnose " + at + "/ball.csv --machine " + machine +
                                     " --json " + at + "/out.json -o " + at + "/errors.toml");
   EXPECT_EQ(ran.exit_code, 1) << ran.output;
-  EXPECT_NE(ran.output.find("write [um] behind their names"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("write [um] after their names"), std::string::npos) << ran.output;
   EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
   EXPECT_FALSE(std::filesystem::exists(folder / "errors.toml"));
 }

@@ -99,7 +99,7 @@ TEST_F(MeasurementMistakes, ToolLengthOfAnother) {
 
 TEST_F(MeasurementMistakes, UnitsOfTheDeviations) {
   rows(scaled({"dX", "dY", "dZ"}, 1e-3));  // mm under µm
-  expect_refused({"scatter by 0.001", "noise is said to be 1 µm", "unit of the deviations"});
+  expect_refused({"scatter by 0.001", "stated noise is 1 µm", "unit of the deviations"});
   write(replaced("dX[um],dY[um],dZ[um]", "dX[mm],dY[mm],dZ[mm]"), [](Fields&) {});
   expect_refused({"the deviations are in um and the header says mm", "write [um]"});
 }
@@ -139,7 +139,8 @@ TEST_F(MeasurementMistakes, RandomNumbers) {
   rows([&](Fields& at) {
     for (const char* d : {"dX", "dY", "dZ"}) at[d] = std::to_string(draw(random));
   });
-  expect_refused({"of the readings are left by every error", "noise is said to be 1 µm", "units"});
+  expect_refused(
+      {"even with every error that a machine can have", "stated noise is 1 µm", "units"});
 }
 
 TEST_F(MeasurementMistakes, ReadOutsInTwoUnits) {
@@ -165,9 +166,9 @@ TEST_F(MeasurementMistakes, ReadOutsInTwoUnits) {
 
 TEST_F(MeasurementMistakes, UnitsOfThePositions) {
   rows(scaled({"X", "Y", "Z"}, 1.0 / 25.4));
-  expect_refused({"X, Y and Z are in inch", "write [in] behind their names"});
+  expect_refused({"X, Y and Z are in inch", "write [in] after their names"});
   write(replaced("X[mm],Y[mm],Z[mm]", "X[in],Y[in],Z[in]"), [](Fields&) {});
-  expect_refused({"X, Y and Z are in mm", "write [mm] behind their names"});
+  expect_refused({"X, Y and Z are in mm", "write [mm] after their names"});
   write(replaced("C[deg]", "C[rad]"), [](Fields&) {});
   expect_refused({"the column C is in degrees", "write C[deg]"});
   rows(scaled({"A"}, 3.14159265358979 / 180.0));

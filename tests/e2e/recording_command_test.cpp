@@ -182,8 +182,8 @@ TEST_F(RecordingCommand, RowsWithoutAValueAreLeftOutWhenAsked) {
   file("table.csv", text);
   // Row i stands in line i + 3 behind a comment and the header, in line i + 2 behind the header.
   const std::pair<const char*, const char*> files[] = {
-      {"own.csv", "6 rows are left out (--drop-invalid), in lines 8, 20, 43-45, 303"},
-      {"table.csv", "6 rows are left out (--drop-invalid), in lines 7, 19, 42-44, 302"}};
+      {"own.csv", "6 rows are excluded (--drop-invalid), in lines 8, 20, 43-45, 303"},
+      {"table.csv", "6 rows are excluded (--drop-invalid), in lines 7, 19, 42-44, 302"}};
   for (const auto& [name, left] : files) {
     const CommandStreams refused =
         command(std::string("fit ") + name + " --surface cylinder --json r.json --force");
@@ -262,8 +262,7 @@ TEST_F(RecordingCommand, RowsAreNotLeftOutThatShouldNotBe) {
     const std::string good = plain(i, x, c, z);
     return i % 2 == 0 ? std::string("NaN").append(good.substr(good.find(','))) : good;
   });
-  expect_input_error("fit half.csv --surface cylinder --drop-invalid",
-                     "too many to leave them out");
+  expect_input_error("fit half.csv --surface cylinder --drop-invalid", "too many to exclude them");
   file("comma.csv", "X_M[mm];C[deg];Z[mm]\n25.1;0;1\n25,2;90;2\n25.3;180;3\n25.2;270;4\n");
   expect_input_error("fit comma.csv --surface section --radius --drop-invalid", "25,2");
 }

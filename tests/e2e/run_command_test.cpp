@@ -76,7 +76,7 @@ TEST_F(RunCommand, ActuatorThatCannotFollow) {
   EXPECT_GT(rpm, 600.0);
   EXPECT_LT(rpm, 19100.0);
   char speed[64];
-  std::snprintf(speed, sizeof speed, "it would at %.0f rpm or less", std::floor(rpm));
+  std::snprintf(speed, sizeof speed, "it can follow at %.0f rpm or less", std::floor(rpm));
   EXPECT_TRUE(contains(first_line(done.out), speed)) << first_line(done.out);
   EXPECT_FALSE(margin.at("follows").get<bool>());
   EXPECT_TRUE(contains(margin.at("breaks"), "bandwidth"));

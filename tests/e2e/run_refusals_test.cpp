@@ -53,13 +53,13 @@ constexpr int seed = 4;
 
 constexpr const char* radial_slip = "id = \"part.slip\"\ntime_s = 12\ndx_um = 20\ndy_um = 0\n";
 
-// One that is sure is no refusal: the axis is that of the part as it now stands.
+// One that is sure is no refusal: the axis given is that of the part after the slip.
 TEST_F(RunRefusals, ARadialSlipIsSaid) {
   const CommandStreams done = run_with(radial_slip, "2", 50.0, seed);
   EXPECT_EQ(done.exit_code, 0) << done.err;
   const std::string line = first_line(done.out);
   EXPECT_EQ(line.rfind("GO: ", 0), 0u) << line;
-  EXPECT_TRUE(contains(line, "the axis is that of the part as it now stands")) << line;
+  EXPECT_TRUE(contains(line, "the axis given is that of the part after the slip")) << line;
   // A step at 0.6 of the length leaves 0.24 − 0.12² · 12 = 0.0672 of its square beside an axis with
   // a slope; each component is seen through a cosine, mean square ½.
   const double u_um = 2.0 / std::sqrt(487.0 * 0.5 * 0.0672);
@@ -85,10 +85,11 @@ TEST_F(RunRefusals, ARotationalSlipIsSaid) {
 
 TEST_F(RunRefusals, ASlipWithoutATargetIsSaidToo) {
   const CommandStreams done = run_with(radial_slip, "2", 50.0, seed, false);
-  EXPECT_EQ(first_line(done.out).rfind("DONE: identified, no target to correct; seat: the part "
-                                       "slipped in the chuck at 12.0 s by ",
-                                       0),
-            0u)
+  EXPECT_EQ(
+      first_line(done.out).rfind("DONE: axis identified; no target to correct; seat: the part "
+                                 "slipped in the chuck at 12.0 s by ",
+                                 0),
+      0u)
       << done.out;
 }
 
@@ -99,7 +100,7 @@ TEST_F(RunRefusals, FindingsThatTheLatheRefutes) {
   ASSERT_GT(share, 1.0) << "another stream is needed: " << done.out;
   const json& back = again.at("j_test_lambda");
   ASSERT_GT(back.at("value").get<double>(), 2.33 * back.at("u").get<double>());
-  expect_refusal(done, "what was found does not reproduce the readings: ");
+  expect_refusal(done, "the causes found do not reproduce the readings: ");
   char figures[64];
   std::snprintf(figures, sizeof figures, "(%.0f %% of the variance)", 100.0 * share);
   EXPECT_TRUE(contains(first_line(done.out), figures)) << done.out;

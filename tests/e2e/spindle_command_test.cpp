@@ -96,7 +96,7 @@ TEST_F(SpindleCommand, AReversalIsKnownInTheSensitiveDirectionOnly) {
   simulate(of_data("spindle_reversal.toml"), "r.csv");
   const CommandStreams done = command("spindle r.csv --json r.json --verbose");
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_TRUE(contains(done.out, "the motion is known along 0° only")) << done.out;
+  EXPECT_TRUE(contains(done.out, "the motion is known only along 0°")) << done.out;
   EXPECT_TRUE(contains(done.out, "order  condition")) << done.out;
   const nlohmann::json radial = result("r.json").at("radial");
   expect_within(radial.at("values").at("synchronous"), 0.8e-3, "synchronous");

@@ -109,9 +109,9 @@ TEST_F(VirtualCutCommand, RefusesWhatItCannotCut) {
   for (const char* const place : {"p.nc:1:", "p.nc:3:", "p.nc:4:", "p.nc:5:", "p.nc:6:"})
     EXPECT_TRUE(contains(err, place)) << place << '\n' << err;
   file("empty.nc", "");
-  expect_input_error(cut_scenario + "--program empty.nc -o path.csv", "is no other form");
+  expect_input_error(cut_scenario + "--program empty.nc -o path.csv", "is not another form");
   file("other.nc", "F100\nG1 X0 Y0 Z0 A0 C0\nX1\n");
-  expect_input_error(cut_scenario + "--program other.nc -o path.csv", "is no other form");
+  expect_input_error(cut_scenario + "--program other.nc -o path.csv", "is not another form");
   expect_input_error(cut_scenario + "--program other.nc -o other.nc --force", "is an input");
   expect_input_error(cut_scenario + "--truth t.json -o path.csv", "leave --truth");
   expect_input_error(cut_scenario + "--seed 3 -o path.csv", "has no noise");

@@ -151,7 +151,7 @@ bool told_in_other_words(const std::string& id) {
   return id == "part.chuck_lobing" || id == "probe.nonlinearity" || id == "thermal.drift";
 }
 
-/// Parameters of the finding that bears the planted effect's name, beside what was planted:
+/// Parameters of the cause that bears the planted effect's name, beside what was planted:
 /// lengths, times and pure numbers (an angle has a zero of its own).
 void expect_planted_sizes(const Finding& finding, const std::map<std::string, double>& planted) {
   if (told_in_other_words(finding.effect())) return;

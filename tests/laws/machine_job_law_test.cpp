@@ -99,7 +99,7 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   EXPECT_LT(most, 5.0);
 }
 
-// Beside a reversal, which is no function of a position, U counted the noise alone, without the
+// Beside a reversal, which is not a function of a position, U counted the noise alone, without the
 // component errors that the measurement does not show: it is no smaller than without the reversal.
 TEST(MachineJobLaw, AReversalTakesNothingOffTheUncertainty) {
   Draw draw(20261124);

@@ -188,7 +188,7 @@ TEST(ComparisonText, OneLineSaysWhatIsLeft) {
   again.comparison.noise = {0.0019, 0.225};
   EXPECT_EQ(
       unwrapped(resimulation_line(again)),
-      "simulated measured − simulated 4 → 2 µm RMS; of the variance 25 % is left, noise alone "
+      "simulated measured − simulated 4 → 2 µm RMS; 25 % of the variance remains, noise alone "
       "leaves 22.5 % ");
   again.comparison.noise = {0.03, 56.25};
   EXPECT_NE(unwrapped(resimulation_line(again)).find("noise alone could make all of it"),

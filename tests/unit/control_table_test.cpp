@@ -266,13 +266,13 @@ TEST(ControlTables, EachHasItsLargest) {
       {servo_nc, 1.0, 5.0, 0.03, 1001, "makes 1001000 blocks, more than the 1000000"},
       {sinumerik_cec, 2.0, 3.75, 0.5, 360, ""},
       {sinumerik_cec, 2.0, 3.7, 0.5, 360, "makes 9 tables, more than the 8"},
-      {sinumerik_cec, 1.8, 5.0, 0.5, 360, "makes 201 points a table, more than the 200"},
+      {sinumerik_cec, 1.8, 5.0, 0.5, 360, "makes 201 points in a table, more than the 200"},
       {sinumerik_cec, 2.0, 1e-300, 0.5, 360, "makes more than the 8 tables"},
       // 721 angles: 14 places, and 10 in steps of the same number.
       {beckhoff_crosscomp2, 0.5, 0.5, 0.5, 360, "makes 43981 points, more than the 10201"},
       {beckhoff_crosscomp2, 1.0, 2.0, 0.5, 360, "has one interval for both axes"},
       {beckhoff_crosscomp2, 1.2, 1.2, 0.5, 360, ""},
-      {grid, 7.0, 5.0, 0.5, 360, "no whole part of a turn"},
+      {grid, 7.0, 5.0, 0.5, 360, "does not divide a revolution"},
   };
   for (const Edge& edge : edges) {
     const std::string found =

@@ -234,7 +234,8 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 TEST(DiagnosisText, FirstLineSaysWhatWasFoundAndWhatItGains) {
   Diagnosis d = example::cone_diagnosis();
   EXPECT_EQ(diagnosis_line(d),
-            "UNEXPLAINED: 1 pattern without a catalogued cause, 2 causes found; held-out RMS 4.7 → "
+            "UNEXPLAINED: 1 pattern without a catalogued cause, 2 causes found; cross-validated "
+            "RMS 4.7 → "
             "2.1 µm (ratio 0.45, 95 % 0.42-0.48), noise floor 2 µm");
   d.verdict = DiagnosisVerdict::effects;
   EXPECT_EQ(diagnosis_line(d).substr(0, 24), "EFFECTS: 2 causes found;");

@@ -82,7 +82,8 @@ TEST(LeftUnexplained, MoreThanHalfAgainTheNoiseIsNoNoise) {
   diagnosis.gain.rms_after_mm = 1.7 * sigma_mm;
   const auto found = left_unexplained({}, diagnosis);
   ASSERT_TRUE(found);
-  EXPECT_TRUE(words_of(*found).starts_with("what was found leaves 1.7 µm")) << words_of(*found);
+  EXPECT_TRUE(words_of(*found).starts_with("the causes found leave a residual of 1.7 µm"))
+      << words_of(*found);
 }
 
 }  // namespace

@@ -123,12 +123,12 @@ TEST_F(ErrorsCovariance, Refuses) {
            matrix + "]\n";
   };
   expect_refused(amounts("{name = \"X0Q\"}, {name = \"X0B\"}", "1, 0, 1"),
-                 {"X0Q", "no error", "X0B", "the machine has not"});
+                 {"X0Q", "not an error", "X0B", "this machine does not have"});
   expect_refused(amounts("{name = \"X0C\"}, {name = \"X0C\"}", "4, 0, 4"), {"second time"});
   expect_refused(amounts("{name = \"X0C\", degree = 2, range_mm = [0, 1]}", "4"),
                  {"location error"});
   expect_refused(amounts("{name = \"EXX\", degree = 2}", "4"), {"range_mm", "is needed"});
-  expect_refused(amounts("{name = \"EXX\", degree = 2, cos = 1}", "4"), {"leave out the others"});
+  expect_refused(amounts("{name = \"EXX\", degree = 2, cos = 1}", "4"), {"remove the others"});
   expect_refused(amounts("{name = \"EXX\", order = 2}", "4"), {"order"});
   expect_refused(amounts("{name = \"Y0X\"}", "4"), {"no effect"});
   // mm² in place of µm².

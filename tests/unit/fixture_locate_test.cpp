@@ -185,7 +185,7 @@ TEST(FixtureLocate, LocatorsThatDoNotTellAreNamed) {
   bad = good;
   for (Locator& locator : bad)
     for (double& x : locator.measured_mm) x /= 25.4;
-  says(bad, "the measured tips are no such fixture");
+  says(bad, "the measured tips do not match this fixture");
   bad = good;  // the side locators are 80 mm apart
   bad[4].ideal_mm[1] += 300.0;
   EXPECT_THROW(locate_as_printed(bad), InputError);

@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(NumberFiles, AUnitThatNobodySaysIsAskedForWithWhatWouldReadIt) {
   const std::string cloud = refusal([] { read_points(made("points.npy"), ""); });
-  EXPECT_NE(cloud.find("says no unit"), std::string::npos) << cloud;
+  EXPECT_NE(cloud.find("does not state the unit"), std::string::npos) << cloud;
   EXPECT_NE(cloud.find("--unit mm"), std::string::npos) << cloud;
   RecordingOptions options;
   options.read.diameter = false;
@@ -167,23 +167,23 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Wrong{"complex.npy", "complex numbers"}, Wrong{"cube.npy", "3 dimensions"},
         Wrong{"objects.npy", "Python objects"}, Wrong{"cut.npy", "cut off"},
-        Wrong{"huge.npy", "more than is read of one file"},
+        Wrong{"huge.npy", "more than TrueAxis reads from one file"},
         Wrong{"sparse.h5", "with the arrays before it"},
         Wrong{"points_lying.npy", "a point is a row"},
-        Wrong{"points_nan.npy", ":4:2: y is no finite number"},
+        Wrong{"points_nan.npy", ":4:2: y is not a finite number"},
         Wrong{"points.npy", "names no array", "mm", "P"},
-        Wrong{"cut.npz", "is no whole zip archive"}, Wrong{"changed.npz", "is broken"},
+        Wrong{"cut.npz", "is not a complete zip archive"}, Wrong{"changed.npz", "is broken"},
         Wrong{"bomb.npz", "npy"}, Wrong{"cut.mat", "cut off"},
         Wrong{"only_complex.h5", "complex numbers or records", ""},
-        Wrong{"cut.h5", "is no whole HDF5 file", ""}, Wrong{"changed.h5", "cannot be read", ""},
-        Wrong{"elsewhere.h5", "stored in another file"}, Wrong{"two_clouds.h5", "is not clear"},
-        Wrong{"no_units.h5", "says no unit", ""}, Wrong{"points.h5", "--unit: leave it out"},
-        Wrong{"points.x3p", "--unit: leave it out"},
-        Wrong{"cut.x3p", "is no whole zip archive", ""},
+        Wrong{"cut.h5", "is not a complete HDF5 file", ""},
+        Wrong{"changed.h5", "cannot be read", ""}, Wrong{"elsewhere.h5", "stored in another file"},
+        Wrong{"two_clouds.h5", "is not clear"}, Wrong{"no_units.h5", "does not state the unit", ""},
+        Wrong{"points.h5", "remove --unit"}, Wrong{"points.x3p", "remove --unit"},
+        Wrong{"cut.x3p", "is not a complete zip archive", ""},
         Wrong{"other_data.x3p", "the MD5 sum of bindata/data.bin", ""},
         Wrong{"other_xml.x3p", "the MD5 sum of main.xml", ""},
         Wrong{"too_many.x3p", "main.xml says 25 points", ""},
-        Wrong{"endless.x3p", "is no count of points", ""}));
+        Wrong{"endless.x3p", "is not a valid count of points", ""}));
 
 /// A NumPy file of a header alone.
 std::string npy_of_shape(const std::string& shape) {

@@ -35,7 +35,8 @@ TEST(PlanningText, IsAtTheGoalOnlyWhereTheIntervalHoldsIt) {
   EXPECT_TRUE(says(printed(1.4e-3, 1.6e-3, true), "at the goal, as the bound says"));
   const std::string above = printed(1.54e-3, 1.77e-3, true);
   EXPECT_FALSE(says(above, "at the goal")) << above;
-  EXPECT_TRUE(says(above, "above the goal, yet the bound is still within chance"));
+  EXPECT_TRUE(
+      says(above, "above the goal, but the difference from the bound is within random scatter"));
 }
 
 }  // namespace

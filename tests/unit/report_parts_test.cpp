@@ -82,9 +82,9 @@ TEST(ReportWarnings, ReservationsComeFirstAndAreOffTheLine) {
                                  {ReasonCode::gauge_shows_no_radius, {0}}};
   const std::vector<std::string> said = sentences_of(result.verdict.reservations, result);
   const json data = report_data(result);
-  EXPECT_EQ(data["verdict"]["line"], "GO with reservations: identified, no target to correct");
-  EXPECT_EQ(verdict_line(result),
-            "GO with reservations: identified, no target to correct; " + said[0] + "; " + said[1]);
+  EXPECT_EQ(data["verdict"]["line"], "GO with reservations: axis identified; no target to correct");
+  EXPECT_EQ(verdict_line(result), "GO with reservations: axis identified; no target to correct; " +
+                                      said[0] + "; " + said[1]);
   ASSERT_GE(data["warnings"].size(), 2u);
   EXPECT_EQ(data["warnings"][0]["text"], said[0]);
   EXPECT_EQ(data["warnings"][1]["text"], said[1]);

@@ -37,7 +37,7 @@ TEST(Reproduction, OneThatIsWorseThanTheIdealSurfaceIsNoGo) {
   result.verdict = decide(result);
   EXPECT_FALSE(result.verdict.go());
   const std::string line = verdict_line(result);
-  EXPECT_EQ(line.rfind("NO-GO: seat: what was found does not reproduce the readings: ", 0), 0u);
+  EXPECT_EQ(line.rfind("NO-GO: seat: the causes found do not reproduce the readings: ", 0), 0u);
   const Comparison& c = result.resimulations.front()->comparison;
   char share[32];
   std::snprintf(share, sizeof share, "(%.0f %% of the variance)", 100.0 * c.after.share);

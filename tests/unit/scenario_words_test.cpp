@@ -71,8 +71,8 @@ TEST(ScenarioWords, BothNamesOfOneThingAreOneTooMany) {
   const std::string part = "[part]\nradius_mm = 20\nsurface = \"cylinder\"\n";
   EXPECT_NE(
       refusal(part + "kind = \"cone\"\n" + pass)
-          .find("s.toml:4:8: `kind`, an earlier name of `surface`, stands beside it: keep that "
-                "one"),
+          .find(
+              "s.toml:4:8: `kind`, an earlier name of `surface`, is given as well: keep that one"),
       std::string::npos)
       << refusal(part + "kind = \"cone\"\n" + pass);
   EXPECT_NE(refusal(part + "bore = true\nfeature = \"shaft\"\n" + pass).find("`feature`"),

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{CYLINDER PASS "[cut]\nuse = 'none'\n[cut.target]\nz_start_mm = 0\n"
                                   "z_end_mm = 9\nradius_mm = 2\n[cut.tool]\nsense = 0\n",
                     14, "must be one of: +c, -c"},
-        BadScenario{"a = \n", 1, "is no TOML"}));
+        BadScenario{"a = \n", 1, "is not valid TOML"}));
 
 TEST(SimulateScenario, EveryEffectCanBeReadFromItsOwnDescription) {
   for (const EffectKind& kind : effect_kinds()) {

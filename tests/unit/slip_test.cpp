@@ -48,8 +48,8 @@ TEST(Slip, OneThatIsSureIsNoObjection) {
       {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});
   EXPECT_EQ(objection(found({step})), "");
   EXPECT_EQ(moved(found({step})),
-            "seat: the part slipped in the chuck at 12.0 s by 20.0 ± 3.9 µm: the axis is that of "
-            "the part as it now stands");
+            "seat: the part slipped in the chuck at 12.0 s by 20.0 ± 3.9 µm: the axis given is "
+            "that of the part after the slip");
   EXPECT_EQ(moved(unsure({step})), "");
 }
 
@@ -81,8 +81,8 @@ TEST(Slip, AFaceSlipsAlongZAndTilts) {
   seat.term.effect = find_effect("part.seat_slip");
   const auto said = [&] { return moved(found({seat})); };
   EXPECT_EQ(said(),
-            "seat: the part slipped in the chuck at 12.0 s by -8.01 ± 0.12 µm along Z: the axis is "
-            "that of the part as it now stands");
+            "seat: the part slipped in the chuck at 12.0 s by -8.01 ± 0.12 µm along Z: the axis "
+            "given is that of the part after the slip");
   // 3-4-5 of tilt: u along it is √(0.6² 4² + 0.8² 1²) = 2.53 of the last digits.
   const FitParameter tilt_x = example::parameter("tilt_x", 0.003, 4e-4, "deg"),
                      tilt_y = example::parameter("tilt_y", 0.004, 1e-4, "deg");
@@ -124,7 +124,7 @@ TEST(Slip, TheTextSaysWhoseAxisItIs) {
     const JobResult result = found({slip ? turn : example::lobes()});
     for (const std::string& text :
          {diagnosis_text(*result.diagnoses.front()), findings_text(*result.diagnoses.front())})
-      EXPECT_EQ(text.find("as it stands after the slip") != std::string::npos, slip) << text;
+      EXPECT_EQ(text.find("that of the part after the slip") != std::string::npos, slip) << text;
   }
 }
 

@@ -169,11 +169,12 @@ TEST(StreamMetadata, AFitSaysWhatWasTakenAndWhatWasNotUsed) {
   const std::string said = "# x_convention: radius\n";
   EXPECT_EQ(notes_of(tube(said + "X_M,C,Z"), SurfaceKind::cylinder), "");
   EXPECT_EQ(notes_of(tube("X_M[mm dia],C,Z"), SurfaceKind::cylinder), "");
-  EXPECT_TRUE(notes_of(tube("X_M,C,Z"), SurfaceKind::cylinder).starts_with("X_M was taken as a"));
+  EXPECT_TRUE(notes_of(tube("X_M,C,Z"), SurfaceKind::cylinder)
+                  .starts_with("TrueAxis assumes that X_M is a"));
   EXPECT_TRUE(notes_of(tube(said + "X_M,C,Z"), SurfaceKind::section)
                   .starts_with("Z is not used: 36 readings from Z = 0 to 20 mm in 3 sections"));
   EXPECT_TRUE(notes_of(tube(said + "X_M,C[rad],Z"), SurfaceKind::cylinder)
-                  .ends_with("where it is in degrees, write C[deg]\n"));
+                  .ends_with("if it is in degrees, write C[deg]\n"));
   EXPECT_TRUE(notes_of(tube(said + "X_M,C[deg],Z", rad_per_deg), SurfaceKind::cylinder)
                   .starts_with("C covers 5.76° of the part only"));
 }

@@ -179,8 +179,8 @@ TEST(SweepToml, AReadingSetsWhatNoAxisSets) {
   };
   EXPECT_EQ(complaints_of_sweep(part + reading("\"pass.z_end_mm\" = 5")),
             "");  // the way of the travel
-  expect_complaint(part + reading("\"noise.sigma_um\" = 5"), "sets afterwards: take it out");
-  expect_complaint(part + reading("\"pass.0.length_mm\" = 5"), "sets afterwards: take it out");
+  expect_complaint(part + reading("\"noise.sigma_um\" = 5"), "sets afterwards: remove it");
+  expect_complaint(part + reading("\"pass.0.length_mm\" = 5"), "sets afterwards: remove it");
   expect_complaint(part + reading("\"pass.feed_mm_per_rev\" = 5, \"pass.0.feed_mm_per_rev\" = 1"),
                    "keep one of them");
 }

@@ -142,7 +142,7 @@ TEST(TargetAxis, PlanesAloneAreRefusedForWantOfAPosition) {
     solve_target_axis(planes, 0.0, 10.0);
     FAIL() << "not refused";
   } catch (const Refusal& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("no position"), std::string::npos);
+    EXPECT_NE(std::string(refusal.what()).find("do not fix the position"), std::string::npos);
   }
   EXPECT_THROW(solve_target_axis({}, 0.0, 10.0), Refusal);
 }

@@ -258,10 +258,11 @@ TEST(TargetDatum, WhatMakesNoDatumIsRefusedWithWhatToDo) {
   };
   EXPECT_EQ(refusal_of("", "datum = [\"A\"]\nsecondary_datum = [\"C\"]"), "");
   EXPECT_EQ(refusal_of("association = \"minimum_circumscribed\"", "datum = [\"A\"]"), "");
-  expect("", "datum = [\"B\"]", "names 'B', which is no reference of this job: those are A, C");
-  expect("", "datum = [\"C\"]", "name the cylinder or cone that does as `secondary_datum`");
-  expect("", "datum = [\"A\", \"C\"]", "names a face beside another reference");
-  expect("", "datum = [\"A\"]\nsecondary_datum = [\"A\"]", "is an axis beside the primary one");
+  expect("", "datum = [\"B\"]", "names 'B', which is not a reference of this job: those are A, C");
+  expect("", "datum = [\"C\"]", "name a cylinder or cone as `secondary_datum`");
+  expect("", "datum = [\"A\", \"C\"]", "names a face together with another reference");
+  expect("", "datum = [\"A\"]\nsecondary_datum = [\"A\"]",
+         "is an axis, but the primary datum already fixes the axis");
   expect("", "secondary_datum = [\"C\"]", "needs a primary one");
   expect("association = \"maximum_inscribed\"", "", "is of a bore");
   expect("association = \"circumscribed\"", "", "minimum_circumscribed");

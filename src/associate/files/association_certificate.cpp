@@ -36,7 +36,8 @@ void append_balance(std::string& text, const AssociatedFeature& of, const Balanc
   append(text, "# sum of lambda s n: {}\n", three(balance.force));
   append(text, "# sum of lambda s (arm x n): {} mm\n", three(balance.moment_mm));
   const bool constrained = of.criterion == Criterion::constrained;
-  if (constrained) text += "# (each with d / n of every one of the n points beside, Eq. 254)\n";
+  if (constrained)
+    text += "# (in addition, each has d / n of every one of the n points, Eq. 254)\n";
   const bool zone = of.criterion == Criterion::minimum_zone || constrained;
   const bool flat = of.element == Element::line || of.element == Element::plane;
   const bool tube = !of.in_plane && of.element == Element::circle;

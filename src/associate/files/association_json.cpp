@@ -62,7 +62,7 @@ std::string association_json(const AssociatedFeature& of, const PointText& point
   if (of.element == Element::torus)
     json["minor_radius"] = estimate(f.minor_radius_mm, u.minor_radius_mm, "mm", why);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::string no_u = "it describes these points and estimates nothing";
+  const std::string no_u = "it describes these points and is not an estimate";
   json["rms"] = estimate(of.rms_mm, nan, "mm", no_u);
   json["zone"] = estimate(of.zone_mm, nan, "mm", no_u);
   json["iterations"] = of.iterations;

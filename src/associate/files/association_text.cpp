@@ -41,10 +41,10 @@ std::string proof(const AssociatedFeature& of) {
         "Gaussian element leads to",
         certificate.contacts.size(), certificate.gap_mm);
   if (certificate.contacts.empty())
-    return fmt::format("all points lie on it to {:.1e} mm, and no zone is narrower than none",
+    return fmt::format("all points lie on it to {:.1e} mm, so the zone cannot be narrower",
                        certificate.gap_mm);
   return fmt::format(
-      "{} points hold it, no motion betters it by more than {:.1e} mm to first "
+      "{} points hold it, no motion improves it by more than {:.1e} mm to first "
       "order; {}",
       certificate.contacts.size(), certificate.gap_mm,
       certificate.global ? std::string("the criterion is convex: there is no better one")
@@ -72,7 +72,8 @@ std::string association_text(const AssociatedFeature& of) {
   if (!of.why_no_u.empty())
     text += layout::wrapped("  no U           ", of.why_no_u);
   else
-    text += layout::wrapped("  U              ", "k = 2, from the residuals, taken as independent");
+    text +=
+        layout::wrapped("  U              ", "k = 2, from the residuals, treated as independent");
   return text;
 }
 

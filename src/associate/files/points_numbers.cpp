@@ -42,9 +42,11 @@ class Chooser {
     const bool lying = std::ranges::any_of(file_.arrays, [](const NumberArray& array) {
       return array.unusable.empty() && array.rows == 3 && array.columns > 3;
     });
-    refuse(lying ? "its array has a point a column: a point is a row of x, y and z, transpose it"
-                 : "which of its arrays are the points is not clear: one of three columns, or x, y "
-                   "and z");
+    refuse(
+        lying
+            ? "its array has one point per column: transpose it, as a point is a row of x, y and z"
+            : "it is not clear which of its arrays are the points: one of three columns, or x, y "
+              "and z");
   }
 
   /// What makes mm of the numbers.
@@ -55,17 +57,17 @@ class Chooser {
       if (told.empty()) continue;
       if (!find_unit(UnitKind::length, told))
         throw InputError(path_, csv_quoted(told) + " of " + axis.array->name +
-                                    " is no unit of length: write " +
+                                    " is not a unit of length: write " +
                                     known_units(UnitKind::length));
       if (unit.empty()) unit = told;
       if (of(unit) != of(told))
         throw InputError(path_, "its unit is " + csv_quoted(told) + ", and " + csv_quoted(unit) +
-                                    (unit == unit_ ? " is said by --unit: leave it out"
+                                    (unit == unit_ ? " is given by the file: remove --unit"
                                                    : " elsewhere: x, y and z must have one unit"));
     }
     for (const NumberColumn& axis : axes)
       if (unit_.empty() && !unit.empty() && axis.array->unit.empty()) unit.clear();
-    if (unit.empty()) refuse("it says no unit of its coordinates", Missing::unit);
+    if (unit.empty()) refuse("it does not state the unit of its coordinates", Missing::unit);
     return of(unit);
   }
 
@@ -140,7 +142,7 @@ PointText points_of_numbers(const std::string& path, const std::string& bytes,
       throw InputError(path, "its x, y and z have " + std::to_string(axes[0].array->rows) + ", " +
                                  std::to_string(axes[1].array->rows) + " and " +
                                  std::to_string(axes[2].array->rows) +
-                                 " numbers: they must have as many");
+                                 " numbers: they must have equally many");
   PointText out{.source = path, .hash = content_hash(bytes), .points_mm = {}, .lines = {}};
   out.notes = file.notes;
   const bool metres = factor == 1000.0;
@@ -153,7 +155,7 @@ PointText points_of_numbers(const std::string& path, const std::string& bytes,
       if (finite && std::abs(point[i]) * factor <= largest_coordinate_mm) continue;
       wrong.add(row + 1, i + 1,
                 std::string(1, "xyz"[i]) +
-                    (finite ? " is more than 1e12 mm: look at the unit" : " is no finite number"),
+                    (finite ? " is more than 1e12 mm: check the unit" : " is not a finite number"),
                 finite ? "large" : "number");
       good = false;
     }

@@ -62,11 +62,11 @@ class Reader {
       value *= factor_;
       if (std::abs(value) <= largest_coordinate_mm) return true;
       wrong_.add(number, csv_character(line, fields_[i]),
-                 csv_quoted(text) + " is more than 1e12 mm: look at the unit", "large");
+                 csv_quoted(text) + " is more than 1e12 mm: check the unit", "large");
       return false;
     }
-    wrong_.add(number, csv_character(line, fields_[i]), csv_quoted(text) + " is no finite number",
-               "number");
+    wrong_.add(number, csv_character(line, fields_[i]),
+               csv_quoted(text) + " is not a finite number", "number");
     return false;
   }
 
@@ -84,10 +84,9 @@ class Reader {
       if (!found)
         wrong_.add(
             number, column,
-            csv_quoted(*name) + " is no unit of length: write " + known_units(UnitKind::length));
+            csv_quoted(*name) + " is not a unit of length: write " + known_units(UnitKind::length));
       else if (said_ && found->factor != said_->factor)
-        wrong_.add(number, column,
-                   csv_quoted(*name) + " is not the unit that --unit says: leave one of them out");
+        wrong_.add(number, column, csv_quoted(*name) + " differs from --unit: remove one of them");
       else if (unit && unit->factor != found->factor)
         wrong_.add(number, column, "the three columns must have one unit");
       else
@@ -109,7 +108,7 @@ class Reader {
 PointText read_points(const std::string& path, const std::string& unit, const std::string& array) {
   const std::string content = read_file(path);
   if (is_number_file(content)) return points_of_numbers(path, content, unit, array);
-  if (!array.empty()) throw InputError(path, "is a text of points: leave out --array");
+  if (!array.empty()) throw InputError(path, "is a text of points: remove --array");
   PointText out{.source = path, .hash = content_hash(content), .points_mm = {}, .lines = {}};
   Reader reader(path, unit);
   for_each_line(content, [&](auto line, std::size_t number) { reader.line(line, number, out); });

@@ -56,22 +56,23 @@ StreamPoints points_of_stream(const ProbeStream& stream, SurfaceKind surface,
   if (!stream.more_reading_mm.empty())
     refuse("has several sensors: points need the one at +X; give it a stream of its own");
   if (list_set_ups(stream).size() > 1)
-    refuse("has several set-ups, in each of which the part stands otherwise: give each a stream");
+    refuse("has several set-ups with different positions of the part: write a stream for each");
   const bool relative = !face && stream.indication == Indication::relative;
   if (relative && !stream.nominal_radius_mm)
-    refuse("is a gauge's reading, which is no position: say --nominal-radius-mm");
+    refuse("is a gauge's reading, not a position: give --nominal-radius-mm");
   StreamPoints out;
   out.ball_radius_mm =
       options.ball_radius_mm > 0.0 ? options.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
   if (relative && surface == SurfaceKind::cone && out.ball_radius_mm == 0.0)
     refuse(
-        "is a gauge's reading of a cone, which a ball touches beside its own Z: say "
-        "--ball-radius-mm, of a knife edge a small one");
+        "is a gauge's reading of a cone, which a ball does not touch at its own Z: give "
+        "--ball-radius-mm (small for a knife edge)");
   if (!wrong.empty()) throw InputError(std::move(wrong));
   if (out.ball_radius_mm == 0.0 && surface == SurfaceKind::cone)
     out.notes.emplace_back(
-        "X_M was taken as the contact; where it is a ball's centre, say --ball-radius-mm: the cone "
-        "is then smaller by the radius over the cosine of its half angle");
+        "TrueAxis assumes that X_M is the contact. If it is a ball's centre, give "
+        "--ball-radius-mm: "
+        "the cone is then smaller by the radius over the cosine of its half angle");
   const double nominal = relative ? *stream.nominal_radius_mm : 0.0;
   out.points_mm.reserve(stream.size());
   for (std::size_t i = 0; i < stream.size(); ++i) {

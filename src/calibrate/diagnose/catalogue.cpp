@@ -63,7 +63,7 @@ void add_polynomials(AxisName axis, const AxisRange& range, const ErrorName& err
 void add_harmonics(AxisName axis, const ErrorName& error, std::vector<MachineEffect>& out) {
   for (int order = 1; order <= last_order; ++order) {
     MachineEffect one =
-        component(error, axis, "harmonic", order, std::to_string(order) + " times a turn");
+        component(error, axis, "harmonic", order, std::to_string(order) + " times per revolution");
     std::get<ErrorOfPosition>(one.term).functions = harmonic(order);
     one.parameters = {"cos", "sin"};
     one.formula = "cos cos(order q) + sin sin(order q)";
@@ -128,7 +128,7 @@ void add_drifts(const Problem& problem, bool timed, std::vector<MachineEffect>& 
     drift.unit = "mm";
     drift.low = 0.5e-3, drift.high = 0.05;
     drift.consequence =
-        "it goes on while the part is cut, so what it was over the measurement is counted with U";
+        "it continues while the part is cut, so what it was over the measurement is counted with U";
     if (!timed || !(last.time_s > first.time_s))
       drift.why_not = "the rows have no times: measure with a column t";
     out.push_back(std::move(drift));

@@ -115,7 +115,7 @@ void judge_scatter(const TipFit& fit, const Found& search, const MachineDiagnose
       cdf(complement(boost::math::chi_squared(freedom), all.rss)));
   if (p >= options.false_alarm) return;
   out.unexplained.push_back({{{out.noise_mm, out.noise_mm / std::sqrt(2.0 * freedom), "mm", ""}, p},
-                             "scatter above the noise that is stated"});
+                             "scatter above the stated noise"});
 }
 
 }  // namespace
@@ -155,7 +155,7 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   const auto fit = fit_tips(machine, data, options.calibration, false, out.baseline);
   if (!fit)
     throw InputError(data.front().source,
-                     "is no measurement of balls: give one of kind ball, bar or array as well");
+                     "is not a measurement of balls: add one of kind ball, bar or array");
   const bool timed = std::ranges::none_of(data, [](const MachineMeasurement& file) {
     return file.kind != MeasurementKind::axis && file.time_s.empty();
   });

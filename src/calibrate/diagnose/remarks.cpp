@@ -135,12 +135,12 @@ void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Se
   if (columns.cols() > 0) left -= columns * linear::least_squares(columns, left);
   const auto freedom = static_cast<double>(dictionary.rows() - dictionary.fitted(found).rank);
   const double sigma = std::sqrt(left.squaredNorm() / freedom);
-  QualityCheck noise{"noise", false, "no noise is stated: the residuals give it"};
+  QualityCheck noise{"noise", false, "no noise is stated: it is estimated from the residuals"};
   if (fit.problem.noise_stated) {
     const boost::math::chi_squared chi(freedom);
     const double below = cdf(chi, left.squaredNorm());
     noise.found = below < 1e-3 || below > 1.0 - 1e-3;
-    noise.text = fmt::format("the residuals are {:.3g} times the noise that is stated", sigma);
+    noise.text = fmt::format("the residuals are {:.3g} times the stated noise", sigma);
   }
   out.checks.push_back(noise);
   Index worst = 0;
@@ -153,22 +153,22 @@ void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Se
                    data_row(fit, worst), p)});
   out.checks.push_back({"times", !timed,
                         timed ? "every row has its time"
-                              : "the rows have no times: drift and warming up are not looked for"});
+                              : "the rows have no times: drift and warming up cannot be detected"});
 }
 
 void add_remarks(MachineDiagnosis& out) {
   for (const MachineFinding& finding : out.findings) {
     if (!finding.likely_order)
       out.remarks.push_back(finding.effect() + ": these positions read " + finding.alias +
-                            " alike, so that the order is the likeliest and not certain");
+                            " alike, so the order is the most likely one, not certain");
     for (const auto& [one, other] : finding.pairs)
       out.remarks.push_back(finding.effect() + " is not told from " + one + " and " + other +
                             " together");
   }
   if (std::ranges::any_of(out.unexplained, &MachineUnexplained::may_have_a_name))
     out.remarks.push_back(
-        "what shares its axis with an unknown pattern may be part of it and is not named; it "
-        "stays in the model");
+        "a cause that shares its axis with an unknown pattern may be part of the pattern. It is "
+        "not named, but remains in the model");
 }
 
 }  // namespace trueaxis::calibrate_detail

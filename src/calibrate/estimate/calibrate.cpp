@@ -66,7 +66,7 @@ NotDetermined in_words(const Held& held, const std::vector<Unknown>& unknowns) {
     out.why = name + " is not told from " + others[0] + ": every position moves both alike";
   else
     out.why = name + " is not told from " + listed(others) +
-              " together: at these positions they move the readings as it does";
+              " together: at these positions they move the readings in the same way";
   return out;
 }
 
@@ -105,7 +105,7 @@ void describe(const Problem& problem, const std::vector<Unknown>& unknowns,
     out.not_determined.push_back(in_words(one, unknowns));
     held.push_back(unknowns[one.unknown].name);
   }
-  out.gauge = held.empty() ? "nothing is held" : "held at what was given: " + listed(held);
+  out.gauge = held.empty() ? "nothing is fixed" : "fixed at the given values: " + listed(held);
 }
 
 void place_balls(const Problem& problem, const VectorXd& places, Calibration& out) {

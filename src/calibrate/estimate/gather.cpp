@@ -72,7 +72,7 @@ void check(const Problem& problem, std::span<const MachineMeasurement> data) {
                                  : "ball " + std::to_string(target.ball) + " of " + setup +
                                        " was measured at " + std::to_string(different.size()) +
                                        (different.size() == 1 ? " position" : " positions") +
-                                       " only: its own place is all that they tell; give " +
+                                       " only: they show only its own place; give " +
                                        std::to_string(needed) + " or more"});
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));

@@ -54,7 +54,7 @@ Mistake scaled_axis(AxisName axis, double factor, const std::string& what,
 /// Deviations in another unit than their header says.
 Mistake scaled_deviations(double factor, const std::string& is, const std::string& said) {
   return {"the deviations are in " + is + " and the header says " + said,
-          "write [" + is + "] behind their names",
+          "write [" + is + "] after their names",
           [=](MachineMeasurement& file) {
             for (Vector3& one : file.deviation_mm)
               for (double& size : one) size *= factor;
@@ -104,7 +104,7 @@ std::vector<Mistake> mistakes_of(const Machine& machine, std::span<const Machine
   }
   for (const bool inch : {true, false})
     list.push_back({std::string("X, Y and Z are in ") + (inch ? "inch" : "mm"),
-                    std::string("write [") + (inch ? "in]" : "mm]") + " behind their names",
+                    std::string("write [") + (inch ? "in]" : "mm]") + " after their names",
                     [=](MachineMeasurement& file) {
                       for (AxisPositions& at : file.axes)
                         for (std::size_t k = 0; k < 3; ++k)
@@ -191,8 +191,8 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
   if (found.equations == 0) return "";
   if (found.converged && found.rms_after_mm * far_too_small < found.stated_noise_mm)
     return fmt::format(
-        "the readings scatter by {:.2g} µm and their noise is said to be {:.2g} µm: see whether "
-        "the unit of the deviations in the header is that of the numbers, and `# noise`",
+        "the readings scatter by {:.2g} µm, but their stated noise is {:.2g} µm: check the unit of "
+        "the deviations in the header, and `# noise`",
         found.rms_after_mm / mm_per_um, found.stated_noise_mm / mm_per_um);
   const double as_read_mm = found.rms_parameters_mm;
   const bool wrong = !found.converged || !implausible(found, options).empty();
@@ -211,22 +211,21 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
     const std::optional<double> again_mm = left_mm(machine, right, options);
     if (!again_mm || !(*again_mm < least_mm * mistake.smaller)) continue;
     least_mm = *again_mm / mistake.smaller;
-    best = fmt::format("{}, and {:.3g} µm are left if {}: {}",
-                       wrong ? "no machine fits the readings"
-                             : fmt::format("{:.3g} µm of the readings are left by the fit",
-                                           as_read_mm / mm_per_um),
-                       *again_mm / mm_per_um, mistake.what, mistake.mend);
+    best = fmt::format(
+        "{}, and {:.3g} µm are left if {}: {}",
+        wrong ? "no machine model fits the readings"
+              : fmt::format("the fit leaves residuals of {:.3g} µm", as_read_mm / mm_per_um),
+        *again_mm / mm_per_um, mistake.what, mistake.mend);
   }
   if (!best.empty() || in_proportion || wrong) return best;
   return fmt::format(
-      "{:.3g} µm of the readings are left by every error that a machine has{}: see whether the "
-      "units "
-      "of the deviations and positions in the header are those of the numbers, and whether the "
-      "machine file, the tool length and the columns are those of the measurement",
+      "even with every error that a machine can have, the residuals are {:.3g} µm{}: check the "
+      "units of deviations and positions in the header. Check that the machine file, the tool "
+      "length and the columns belong to the measurement",
       left_by_all_mm / mm_per_um,
-      found.stated_noise_mm > 0.0 ? fmt::format(", and their noise is said to be {:.2g} µm",
-                                                found.stated_noise_mm / mm_per_um)
-                                  : std::string());
+      found.stated_noise_mm > 0.0
+          ? fmt::format(", and their stated noise is {:.2g} µm", found.stated_noise_mm / mm_per_um)
+          : std::string());
 }
 
 }  // namespace trueaxis

@@ -16,8 +16,8 @@ std::string implausible(const Calibration& found, const CalibrationOptions& opti
     const double least = std::abs(p.estimate.value) - options.coverage_factor * p.estimate.u;
     if (!(least > most)) continue;
     return fmt::format(
-        "{} would be {:.4g} {}: no machine is so far from its model. See whether the machine file, "
-        "the tool length, units and senses of the columns are those of the measurement",
+        "{} is {:.4g} {}: no machine is so far from its model. Check that the machine file, the "
+        "tool length, and the units and signs of the columns belong to the measurement",
         p.name, p.estimate.value * edge_factor(p.estimate.unit), angle ? "deg" : "mm");
   }
   return "";

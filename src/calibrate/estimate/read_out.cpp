@@ -235,7 +235,7 @@ void check(const MachineMeasurement& file) {
   const std::set<AxisPositions> different(file.axes.begin(), file.axes.end());
   if (different.size() < 4)
     throw InputError(file.source, "has " + std::to_string(different.size()) +
-                                      " positions of the axis: its error wants four or more");
+                                      " positions of the axis: its error needs four or more");
 }
 
 }  // namespace

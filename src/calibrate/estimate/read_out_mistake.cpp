@@ -53,7 +53,7 @@ std::string unit_mistake(const MachineMeasurement& file) {
   for (const Factor& factor : factors)
     if (std::abs(slope / factor.of - 1.0) < same_factor)
       return std::string(factor.words) + ": write the unit that the numbers have";
-  return "see whether both columns are of this axis, and in the units of the header";
+  return "check that both columns belong to this axis and have the units of the header";
 }
 
 }  // namespace
@@ -75,10 +75,11 @@ std::string read_out_mistake(std::span<const MachineMeasurement> data, const Cal
     const double noise = file.noise_mm.value_or(0.0);
     if (one.rms_after <= std::max(far_too_small * noise, limits.left)) continue;
     const std::string said =
-        noise > 0.0 ? fmt::format(", and their noise is said to be {:.2g} {}", noise / unit, name)
+        noise > 0.0 ? fmt::format(", and their stated noise is {:.2g} {}", noise / unit, name)
                     : std::string();
-    return fmt::format("{}: {:.3g} {} of the read-out of {} are left by the fit{}: {}", file.source,
-                       one.rms_after / unit, name, letter_of(one.axis), said, unit_mistake(file));
+    return fmt::format("{}: the fit leaves residuals of {:.3g} {} in the read-out of {}{}: {}",
+                       file.source, one.rms_after / unit, name, letter_of(one.axis), said,
+                       unit_mistake(file));
   }
   return "";
 }

@@ -34,13 +34,14 @@ std::string components_text(const Calibration& c) {
       shown += fmt::format("{}{} {:.2g} {}", count++ == 0 ? "" : ", ", one.name,
                            small_factor(one.rms) * one.rms.value, unit_of(one.rms));
     }
-  std::string text = layout::wrapped(
-      "", fmt::format("U counts {} component errors as large as machines have them, of this one "
-                      "{:.2g} times that, by these data",
-                      c.components.size(), c.size_of_components));
+  std::string text =
+      layout::wrapped("", fmt::format("U includes {} component errors of typical size, and for "
+                                      "this one {:.2g} times that size, according to these data",
+                                      c.components.size(), c.size_of_components));
   if (count > 0)
-    text += layout::wrapped("", "The data show component errors, which the errors written have: " +
-                                    shown + " RMS. trueaxis machine diagnose tests and names them");
+    text += layout::wrapped(
+        "", "The data show component errors, which the written errors include: " + shown +
+                " RMS. trueaxis machine diagnose tests and names them");
   return text;
 }
 

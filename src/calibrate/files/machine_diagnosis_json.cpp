@@ -114,7 +114,7 @@ Json measurement_json(const MachinePlan& plan, const Machine& machine) {
 Json next_json(const MachineDiagnosis& d, const Machine& machine) {
   const MachinePlan* plan = d.next();
   if (plan == nullptr)
-    return {{"plan", ""}, {"why_not", "no plan shows or separates anything more"}};
+    return {{"plan", ""}, {"why_not", "no plan shows or separates any further error"}};
   Json json = plan_json(*plan);
   json["measurement"] = measurement_json(*plan, machine);
   return json;
@@ -164,8 +164,7 @@ Json machine_diagnosis_object(const MachineDiagnosis& d, const Machine& machine)
       {"not_observable", list_of(d.not_observable, not_observable_json)},
       {"remarks", d.remarks},
       {"checks", list_of(d.checks, check_object)},
-      {"noise",
-       {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
+      {"noise", {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the final fit"}}},
       {"gain", gain_json(d)},
       {"next_measurement", next_json(d, machine)},
       {"plans", list_of(d.plans, plan_json)}};

@@ -47,10 +47,10 @@ std::string not_observable_text(const MachineDiagnosis& d) {
 
 std::string machine_diagnosis_text(const MachineDiagnosis& d) {
   std::string text = d.verdict == DiagnosisVerdict::ideal
-                         ? "nothing beside the location errors was found\n"
+                         ? "no errors other than the location errors were found\n"
                      : d.verdict == DiagnosisVerdict::effects
-                         ? "beside the location errors:\n"
-                         : "beside the location errors, in part unexplained:\n";
+                         ? "in addition to the location errors:\n"
+                         : "in addition to the location errors, partly unexplained:\n";
   for (const MachineFinding& finding : d.findings) text += finding_text(finding);
   for (const MachineUnexplained& one : d.unexplained)
     text += fmt::format("unexplained: {}, {} (p {:.2g})\n", one.pattern,
@@ -58,7 +58,7 @@ std::string machine_diagnosis_text(const MachineDiagnosis& d) {
   for (const std::string& remark : d.remarks) text += layout::wrapped("note: ", remark);
   for (const QualityCheck& check : d.checks)
     if (check.found) text += layout::wrapped("check: ", check.text);
-  text += fmt::format("RMS {} -> {}; held out {} -> {} ({} blocks of rotary positions)\n",
+  text += fmt::format("RMS {} -> {}; cross-validated {} -> {} ({} blocks of rotary positions)\n",
                       layout::um(d.gain.rms_before_mm), layout::um(d.gain.rms_after_mm),
                       layout::um(d.gain.held_out_before_mm.value),
                       layout::um(d.gain.held_out_after_mm.value), d.blocks);
@@ -71,11 +71,11 @@ std::string machine_diagnosis_text(const MachineDiagnosis& d) {
 std::string machine_advice_text(const MachineDiagnosis& d) {
   const MachinePlan* next = d.next();
   std::string text = next ? layout::wrapped("next: ", next_plan_text(d, PlanBy::code))
-                          : "next: no plan shows or separates anything more\n";
+                          : "next: no plan shows or separates any further error\n";
   for (const MachinePlan& plan : d.plans) {
     std::string what = fmt::format("{:.0f} min", plan.minutes);
     if (!plan.separates.empty())
-      what += fmt::format("; tells apart what is alike {}", fmt::join(plan.separates, ", "));
+      what += fmt::format("; separates {}", fmt::join(plan.separates, ", "));
     what += plan.shows.empty() ? "; shows nothing more"
                                : fmt::format("; shows {}", fmt::join(plan.shows, " "));
     text += layout::wrapped(fmt::format("  {}: ", plan.code), what);

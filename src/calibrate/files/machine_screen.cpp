@@ -134,7 +134,7 @@ std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
 
 std::string next_plan_text(const MachineDiagnosis& d, PlanBy by) {
   const MachinePlan* plan = d.next();
-  if (plan == nullptr) return "nothing: no plan shows or tells apart anything more";
+  if (plan == nullptr) return "nothing: no plan shows or separates any further error";
   return fmt::format("{}{} ({} readings, {:.0f} min)",
                      by == PlanBy::code ? plan->code + ", " : "Measure ", plan->what,
                      plan->visits.size(), plan->minutes);

@@ -99,7 +99,7 @@ class Rows {
         break;
       case Role::time:
         if (!out_.time_s.empty() && value < out_.time_s.back())
-          return "t falls: rows stand in the order in which they were taken";
+          return "t falls: sort the rows by time";
         out_.time_s.push_back(value);
         break;
     }
@@ -121,7 +121,7 @@ bool take_metadata(const MeasurementMetadata& metadata, const Machine& machine, 
   if (!metadata.kind) {
     if (!metadata.lines.contains("kind"))
       wrong("kind",
-            "does not say its kind before the header: write `# kind: ball` (bar, array, axis)");
+            "does not state its kind before the header: write `# kind: ball` (bar, array, axis)");
     return false;
   }
   out.kind = *metadata.kind;
@@ -130,11 +130,12 @@ bool take_metadata(const MeasurementMetadata& metadata, const Machine& machine, 
   out.gear_ratio = metadata.gear_ratio;
   if (metadata.gear_ratio &&
       !(out.kind == MeasurementKind::axis && is_rotary(metadata.axis.value_or(AxisName::C))))
-    wrong("gear_ratio", "gear_ratio is said of kind axis and a rotary axis only");
+    wrong("gear_ratio", "gear_ratio belongs only to kind axis with a rotary axis: remove it");
   out.noise_mm = metadata.noise;
-  if (!of_axis && metadata.axis) wrong("axis", "axis is said of kinds array and axis only");
+  if (!of_axis && metadata.axis)
+    wrong("axis", "axis belongs only to kinds array and axis: remove it");
   if (of_axis && !metadata.axis && !metadata.lines.contains("axis"))
-    wrong("axis", "does not say its axis before the header: write `# axis: X`");
+    wrong("axis", "does not state its axis before the header: write `# axis: X`");
   if (out.axis && machine.find(*out.axis) == nullptr)
     wrong("axis", std::string("the machine has no axis ") + letter_of(*out.axis));
   if (out.kind == MeasurementKind::array && out.axis && is_rotary(*out.axis))

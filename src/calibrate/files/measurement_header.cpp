@@ -58,8 +58,9 @@ std::string take(std::string_view field, const std::vector<Known>& known,
   if (found == known.end()) {
     const bool axis =
         name.size() == 1 && std::string_view("XYZABC").find(name) != std::string::npos;
-    return axis ? "the machine has no axis " + name + ": take the column out"
-                : csv_quoted(name) + " is no column of this kind: the columns are " + names(known);
+    return axis ? "the machine has no axis " + name + ": remove the column"
+                : csv_quoted(name) + " is not a column of this kind: the columns are " +
+                      names(known);
   }
   column.role = found->role;
   column.index = found->index;
@@ -72,7 +73,7 @@ std::string take(std::string_view field, const std::vector<Known>& known,
   if (!unit_there) return name + " has no unit" + give;
   const std::string_view unit = trimmed(field.substr(bracket + 1, field.find(']') - bracket - 1));
   const auto factor = find_unit(found->quantity, unit);
-  if (!factor || field.back() != ']') return csv_quoted(unit) + " is no unit of " + name + give;
+  if (!factor || field.back() != ']') return csv_quoted(unit) + " is not a unit of " + name + give;
   column.factor = factor->factor;
   return "";
 }
@@ -96,7 +97,7 @@ std::vector<MeasurementColumn> measurement_columns(std::string_view line, std::s
     std::string why = take(field, known, column);
     if (why.empty() &&
         std::ranges::find(columns, column.name, &MeasurementColumn::name) != columns.end())
-      why = column.name + " is there twice: keep one";
+      why = column.name + " is given twice: keep one";
     if (!why.empty()) wrong(csv_character(line, field), std::move(why));
     columns.push_back(std::move(column));
   }

@@ -17,7 +17,7 @@ constexpr std::array kinds{MeasurementKind::ball, MeasurementKind::bar, Measurem
 std::string take_kind(std::string_view value, MeasurementMetadata& metadata) {
   for (const MeasurementKind kind : kinds)
     if (value == to_string(kind)) metadata.kind = kind;
-  return metadata.kind ? "" : csv_quoted(value) + " is no kind: write ball, bar, array or axis";
+  return metadata.kind ? "" : csv_quoted(value) + " is not a kind: write ball, bar, array or axis";
 }
 
 std::string take_noise(std::string_view value, MeasurementMetadata& metadata) {
@@ -29,13 +29,13 @@ std::string take_noise(std::string_view value, MeasurementMetadata& metadata) {
     metadata.noise_is_angle = quantity == UnitKind::angle;
     return "";
   }
-  return csv_quoted(value) + " is no noise: write a number and its unit, such as 1 um";
+  return csv_quoted(value) + " is not a noise: write a number and its unit, such as 1 um";
 }
 
 std::string take_axis(std::string_view value, MeasurementMetadata& metadata) {
   const std::size_t at = std::string_view("XYZABC").find(value);
   if (value.size() != 1 || at == std::string_view::npos)
-    return csv_quoted(value) + " is no axis: write one of X Y Z A B C";
+    return csv_quoted(value) + " is not an axis: write one of X Y Z A B C";
   metadata.axis = static_cast<AxisName>(at);
   return "";
 }
@@ -45,7 +45,8 @@ std::string take_gear_ratio(std::string_view value, MeasurementMetadata& metadat
   constexpr int most = 10000;
   if (!ratio || *ratio < 2 || *ratio > most)
     return csv_quoted(value) +
-           " is no gear ratio: write how often the gear turns in a turn of the axis, 2 to 10000";
+           " is not a gear ratio: write how often the gear turns per revolution of the axis, 2 to "
+           "10000";
   metadata.gear_ratio = ratio;
   return "";
 }
@@ -71,7 +72,7 @@ void take_measurement_comment(std::string_view line, std::size_t number,
   const std::size_t column =
       csv_character(line, static_cast<std::size_t>(text.data() - line.data()));
   if (const char* const known = meant(key)) {
-    diagnostics.add(number, column, csv_quoted(key) + " is no key: did you mean " + known + "?");
+    diagnostics.add(number, column, csv_quoted(key) + " is not a key: did you mean " + known + "?");
     return;
   }
   if (std::ranges::find(keys, key) == keys.end()) return;
@@ -79,7 +80,7 @@ void take_measurement_comment(std::string_view line, std::size_t number,
   if (text[colon] == '=')
     wrong = "write `# " + key + ": …` with a colon";
   else if (!metadata.lines.try_emplace(key, number).second)
-    wrong = key + " is said twice: keep one";
+    wrong = key + " is given twice: keep one";
   else
     wrong = key == "kind"    ? take_kind(value, metadata)
             : key == "noise" ? take_noise(value, metadata)

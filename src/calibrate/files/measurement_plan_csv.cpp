@@ -23,7 +23,7 @@ std::string measurement_plan_csv(const MachineDiagnosis& diagnosis, const Machin
         visit.ball, visit.setup, c[0], c[1], c[2]);
   }
   text +=
-      "# X Y Z put the tip of the tool on the ball there: take them along with where it stands\n";
+      "# X Y Z put the tip of the tool on the ball there: shift them with the place of the ball\n";
   text += "# add a column t[s], the time of every reading, where it is known\n";
   const bool bar = plan->kind == MeasurementKind::bar;
   text += "setup,ball";

@@ -66,7 +66,7 @@ std::string next_screen_of(const ProgramCompensation& result, const Compensation
     return "next   a smaller --tolerance-um than " + um(*options.tolerance_mm) +
            ": between the ends of blocks the tip is off by " + um(between_mm) + "\n";
   if (!options.tolerance_mm && between_mm > std::max(1e-3, 5.0 * result.after.position.value))
-    return "next   --tolerance-um cuts the moves in pieces: between their ends the tip is off by " +
+    return "next   --tolerance-um splits the moves: between their ends the tip is off by " +
            um(between_mm) + "\n";
   return "next   Run the new program instead of the old one; trueaxis machine simulate tests it "
          "first\n";
@@ -76,7 +76,7 @@ std::string next_screen_of(const ProgramCompensation& result, const Compensation
 
 std::string compensation_screen(const ProgramCompensation& result,
                                 const CompensationOptions& options) {
-  if (result.blocks_moved == 0) return "DONE: the program moves nowhere, nothing was changed\n";
+  if (result.blocks_moved == 0) return "DONE: the program does not move; nothing was changed\n";
   const LargestInProgram before = result.off_before(), after = result.off_after();
   std::string text = fmt::format(
       "DONE: tip off by {} at most on the whole path with the new program, {} without it (line "

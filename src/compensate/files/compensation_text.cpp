@@ -65,27 +65,26 @@ std::string compensation_text(const ProgramCompensation& result) {
   if (!result.by_error.empty()) text += row("errors alone", largest_errors(result));
   if (result.u_tip)
     text += row("U of the tip", layout::um(2.0 * result.u_tip->value) +
-                                    " (k = 2), with what is "
-                                    "not known of where the part stands");
+                                    " (k = 2), including the uncertainty of the place of the part");
   if (!result.singular.empty())
-    text += row("at a pole", format("{} blocks, whose direction is left off: the first in line {}",
-                                    result.singular.size(), result.singular.front().line));
+    text +=
+        row("at a pole", format("{} blocks, whose direction is not corrected: the first in line {}",
+                                result.singular.size(), result.singular.front().line));
   return text;
 }
 
 std::string worse_text(const ProgramCompensation& result, const CompensationOptions& options) {
   const LargestInProgram before = result.off_before(), after = result.off_after();
-  const std::string cure = options.tolerance_mm
-                               ? "Ask for a smaller --tolerance-um, or more decimals"
-                               : "Cut its blocks in pieces (--tolerance-um)";
+  const std::string cure = options.tolerance_mm ? "Use a smaller --tolerance-um, or more decimals"
+                                                : "Split its blocks (--tolerance-um)";
   if (!result.worse.empty())
     return format(
-        "{} blocks would be further from their lines than they are, the first in line {}: nothing "
-        "was written. {}",
+        "{} blocks would be further from their lines than before, the first in line {}: TrueAxis "
+        "has not written the program. {}",
         result.worse.size(), result.worse.front(), cure);
   return format(
-      "the new program would be off by {} in line {}, and the old one is by {}: nothing was "
-      "written. {}",
+      "the new program would be off by {} in line {}, the old one by {}: TrueAxis has not written "
+      "the program. {}",
       layout::um(after.value), after.line, layout::um(before.value), cure);
 }
 

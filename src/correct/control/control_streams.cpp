@@ -29,7 +29,7 @@ MadeControlTable halstreamer_text(const Correction& correction) {
   const bool face = correction.target.kind == TargetKind::face;
   std::string text = "# schema: trueaxis.halstreamer/1\n";
   put(text,
-      "# cfg=ff: {}_command in um ({}), C in degrees; {} lines a revolution at {:.6g} rpm; the "
+      "# cfg=ff: {}_command in um ({}), C in degrees; {} lines per revolution at {:.6g} rpm; the "
       "last line twice\n",
       face ? "Z" : "X", correction.actuator.precompensate ? "precompensated" : "as wanted",
       correction.tool.rows_per_revolution, correction.tool.speed_rpm);
@@ -61,7 +61,7 @@ MadeControlTable servo_nc(const Correction& correction, const ControlTable& tabl
     put(blocks, "{}C{:.6f} X{:.6f} Z{:.6f}{}\n", before, rows.c_rad[row] / rad_per_deg,
         scale * (face ? along : depth), face ? depth : along, f);
   };
-  put_block(0, "( BEFORE THE NEXT BLOCK THE CENTRE OF THE NOSE MUST STAND AT ", " )");
+  put_block(0, "( BEFORE THE NEXT BLOCK THE CENTRE OF THE NOSE MUST BE AT ", " )");
   put(blocks,
       "( FROM ELSEWHERE THE NEXT BLOCK FEEDS THERE, IN MM A MINUTE AT THE FEED OF THE CUT )\n");
   put(blocks, "G94\n");

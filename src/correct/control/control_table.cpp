@@ -44,8 +44,8 @@ std::string objection_to(const ControlTable& table, const TargetSurface& target,
                          const ToolSetup& tool) {
   const double turns = two_pi / table.c_step_rad;
   if (!(std::abs(turns - std::round(turns)) < 1e-6) || turns < 4.0)
-    return "has a step of C that is no whole part of a turn: use 1, 2 or 5 degrees";
-  if (!(table.position_step_mm > 0.0)) return "has no step along the cut: give one above 0";
+    return "has a step of C that does not divide a revolution: use 1, 2 or 5 degrees";
+  if (!(table.position_step_mm > 0.0)) return "needs a step along the cut: give one above 0";
   // As nodes_of_turn() and nodes_of_length() count, but for steps of any size.
   const double length_mm = std::abs(length_of(target));
   const double angles = std::round(turns) + 1.0;
@@ -61,16 +61,19 @@ std::string objection_to(const ControlTable& table, const TargetSurface& target,
       return too_many(rows_of(target, tool), "blocks", most_blocks,
                       "raise the feed or lower rows_per_revolution");
     case ControlFormat::sinumerik_cec:
-      if (face) return "corrects X over C: a face wants Z, which is not written yet";
+      if (face) return "corrects X over C: a face needs Z, which this format does not write yet";
       if (angles > most_points)
-        return too_many(angles, "points a table", most_points, "use a step of 2 degrees");
+        return too_many(angles, "points in a table", most_points, "use a step of 2 degrees");
       return too_many(std::max(1.0, places - 1.0), "tables", most_tables,
                       fmt::format("use bands of {:.4g} mm or longer",
                                   std::ceil(100.0 * length_mm / most_tables) / 100.0));
     case ControlFormat::beckhoff_crosscomp2:
-      if (face) return "corrects X over C and Z: a face wants Z, which is not written yet";
+      if (face)
+        return "corrects X over C and Z: a face needs a correction of Z, which this format does "
+               "not write yet";
       if (std::abs(table.c_step_rad / rad_per_deg - table.position_step_mm) > 1e-9)
-        return "has one interval for both axes, as many mm as degrees: give both the same number";
+        return "has one interval for both axes, as many mm as degrees: give the same number for "
+               "both";
       return too_many(angles * places, "points", most_plane_points, "use larger steps");
   }
   return "";

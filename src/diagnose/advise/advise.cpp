@@ -250,7 +250,7 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
                          {}});
   if (!ranking.any()) {
     out.next.why_not = questions.empty() && hidden.empty()
-                           ? "nothing is left to tell apart"
+                           ? "all causes are told apart"
                            : "no single measurement of this part tells for sure";
     return out;
   }

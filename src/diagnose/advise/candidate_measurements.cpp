@@ -150,7 +150,7 @@ CandidateMeasurement faster_measurement(const ProbeStream& stream, const Lineari
     p.minutes += minutes_to_clamp + m.seconds / 60.0 + minutes_between;
   }
   append(p.stream, {m.z_end, m.z_start, ratio * m.turns(), m.seconds}, readings, pass, number);
-  p.what = first + ", in the same time: the second orders of delay and lag part";
+  p.what = first + ", in the same time: this separates delay and lag by their second orders";
   return p;
 }
 
@@ -200,7 +200,8 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
         pass_minutes, {{m.z_end, m.z_start, turns, m.seconds}}, nullptr);
   }
   if (timed) {
-    add("2W", fmt::format("probe back at {:.4g} rpm, the same feed a turn", rpm * second_speed),
+    add("2W",
+        fmt::format("probe back at {:.4g} rpm, the same feed per revolution", rpm * second_speed),
         pass_minutes / second_speed, {{m.z_end, m.z_start, turns, m.seconds / second_speed}},
         nullptr);
     add("RV", fmt::format("probe again with the spindle reversed, {:.4g} rpm", -rpm * m.sign),
@@ -215,7 +216,7 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   if (timed) {
     add("ST",
         fmt::format(
-            "10 s at {} {:.6g} mm with the spindle standing still, and 10 s a quarter turn on",
+            "10 s at {} {:.6g} mm with the spindle at standstill, and 10 s a quarter turn further",
             feed, hundredths(middle)),
         20.0 / 60.0, {{middle, middle, 0.0, 10.0}, {middle, middle, 0.0, 10.0, 0.25 * two_pi}},
         nullptr);

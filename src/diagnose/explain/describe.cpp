@@ -162,13 +162,13 @@ std::string alias_of(const Hypothesis& h, const Resolution& resolution) {
   const double m = std::round(resolution.per_turn), other = m - order;
   if (other == order)
     return fmt::format(
-        "{:g} of another phase: with {:g} readings a revolution one phase of order {:g} shows, at "
-        "least this much; take an asynchronous rate",
+        "{:g} of another phase: {:g} readings per revolution show one phase of order {:g}, at "
+        "least this much; use an asynchronous rate",
         other, m, order);
   if (other <= 0.0 || other > highest_alias) return "";
   return fmt::format(
-      "{:g} or {:g}: with {:g} readings a revolution orders n and k {:g} ± n are one column; take "
-      "{:g} of them, which tell all orders up to {:g}, or an asynchronous rate",
+      "{:g} or {:g}: with {:g} readings per revolution, orders n and k {:g} ± n look alike; use "
+      "{:g}, which separate all orders up to {:g}, or an asynchronous rate",
       other, m + order, m, m, 2.0 * other + 1.0, other);
 }
 

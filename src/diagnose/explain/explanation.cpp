@@ -49,7 +49,7 @@ Finding finding_of(const Problem& problem, const Model& model, const Joint& join
 constexpr double ordinary = 3.0, possible = 8.0;  // spreads of the logarithm of a size
 
 /// What no ordinary size would do: where its columns hold, the data tell such a cause, and beyond
-/// they bend by its size over the radius, so that a good part of the finding is enough.
+/// they bend by its size over the radius, so that a good part of the cause is enough.
 /// A cause that has a line or a shape to bend is improbable as a chance among many, not by its
 /// size.
 void add_improbable(const Problem& problem, const Joint& joint, const ConfounderSet& found,

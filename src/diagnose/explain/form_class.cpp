@@ -138,9 +138,9 @@ std::vector<std::string> alias_remark(const Resolution& resolution) {
   if (!resolution.sparse) return {};
   const auto m = static_cast<int>(std::lround(resolution.per_turn));
   return {fmt::format(
-      "{0} even angles a section see lobes of the orders n and k {0} ± n as one: those of order "
-      "{1}, {2}, {3}, {4} … look like eccentricity, whose axis they move by their amplitude, those "
-      "of order {0}, {5} … like another radius; {6} angles tell all orders up to {2}",
+      "with {0} even angles per section, lobes of the orders n and k {0} ± n look alike. Orders "
+      "{1}, {2}, {3}, {4} … look like eccentricity and move the axis by their amplitude; orders "
+      "{0}, {5} … look like another radius; {6} angles separate all orders up to {2}",
       m, m - 1, m + 1, 2 * m - 1, 2 * m + 1, 2 * m, 2 * m + 3)};
 }
 

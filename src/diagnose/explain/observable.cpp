@@ -145,7 +145,7 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     h.entry.effect = effect.id;
     std::string why = why_not(effect.needs, point);
     if (why.empty() && !is_searched(effect, scans))
-      why = "the passes are too short or too coarse to show its wave: probe longer ones";
+      why = "the passes are too short or too coarse to show its wave: probe a longer length";
     const bool can = why.empty();
     const double lambda = can ? typical_lambda(projection, own, t.size, sigma_mm) : 0.0;
     h.power = can ? detection_power(lambda, std::min<std::size_t>(own.size(), 2), model.family,
@@ -174,20 +174,20 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     if (!can) {
       h.entry.why = why;
     } else if (whole <= 0.0) {
-      h.entry.why = "the plan has no readings in which it shows";
+      h.entry.why = "the plan has no readings that show it";
     } else if (share < nearly_absorbed) {
       const std::optional<std::size_t> finding = absorbing_term(joint, own);
       const bool elsewhere =
           point.base.face && !effect.needs.stream;  // its entry speaks of an axis
-      const std::string by(finding     ? "the finding " + model.terms[*finding].id()
-                           : elsewhere ? "height and tilt of the face"
+      const std::string by(finding                      ? "the cause " + model.terms[*finding].id()
+                           : elsewhere                  ? "height and tilt of the face"
                            : effect.absorbed_by.empty() ? "the surface's own parameters"
                                                         : effect.absorbed_by);
-      h.entry.why = fmt::format("absorbed by {}: {} of it is left", by, percent_left(share));
+      h.entry.why = fmt::format("absorbed by {}: {} of it remains", by, percent_left(share));
     } else {
       const bool small = t.unit == "mm" && h.entry.detectable < 1.0, angle = t.unit == "rad";
       const double shown = h.entry.detectable * (small ? 1.0 / mm_per_um : edge_factor(t.unit));
-      h.entry.why = "too small beside the noise at " +
+      h.entry.why = "too small compared with the noise at " +
                     or_never(h.entry.detectable, t.unit,
                              fmt::format("its typical size: found from {:.3g} {} on", shown,
                                          small   ? "µm"

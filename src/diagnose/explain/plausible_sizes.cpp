@@ -46,8 +46,8 @@ std::string implausible_size(const Diagnosis& diagnosis) {
     const double most_mm = largest_of_class_mm(diagnosis, finding);
     if (!(most_mm > 0.0) || amplitude_mm <= beyond * most_mm) continue;
     return fmt::format(
-        "the readings hold a regular pattern of {:.3g} µm that could only be {} ({}), which is at "
-        "most {:.3g} µm: X_M is probably not the reading of a probe on this part. Check the "
+        "the readings contain a regular pattern of {:.3g} µm. Only {} ({}) could cause it, which "
+        "is at most {:.3g} µm: X_M is probably not the reading of a probe on this part. Check the "
         "recording",
         amplitude_mm / mm_per_um, finding.term.effect->title, finding.effect(),
         most_mm / mm_per_um);

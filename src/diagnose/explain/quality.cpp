@@ -141,9 +141,9 @@ void find_gaps(const LinearisationPoint& point, const ObservationMask& mask, Noi
          });
   run_of([&](std::size_t k) { return all[k] > 3 && used[k] * 2 < all[k]; },
          [&](std::size_t from, std::size_t count) {
-           out.interruptions.push_back({first[from] + 1, "most readings from " +
-                                                             describe(from, count) +
-                                                             " are far off on every turn: masked"});
+           out.interruptions.push_back(
+               {first[from] + 1, "most readings from " + describe(from, count) +
+                                     " are far off in every revolution: excluded"});
          });
 }
 
@@ -216,7 +216,7 @@ QualityCheck quantisation(double step, const Joint& joint, double sigma) {
   const bool taken = std::ranges::any_of(joint.terms, [&](const Hypothesis& h) {
     return is_rounding(h, joint.equations.point(), step);
   });
-  if (taken) text += ": its error, of that period in X, is taken off";
+  if (taken) text += ": TrueAxis subtracts its error, of that period in X";
   return result(DataCheck::quantisation, step > 0.5 * sigma, std::move(text));
 }
 
@@ -228,17 +228,16 @@ QualityCheck stated_noise(const NoiseReport& noise, double redundancy) {
   std::string text = fmt::format("stated {:.3g} µm, from {} {:.3g} µm", stated / mm_per_um,
                                  to_string(noise.source), shown / mm_per_um);
   if (found) {
-    text += shown > stated
-                ? fmt::format(
-                      ": u is computed with what the data show, {:.2g} times the "
-                      "statement; more than the sensor's noise is in the readings, or the "
-                      "statement is too small",
-                      shown / stated)
-                : fmt::format(
-                      ": the u of findings come from what the data show, but u of the "
-                      "ideal surface from the statement, up to {:.2g} times too large "
-                      "where that is wrong (a unit?)",
-                      stated / shown);
+    text +=
+        shown > stated
+            ? fmt::format(
+                  ": TrueAxis computes u from the data, {:.2g} times the stated noise; the "
+                  "readings contain more than the sensor's noise, or the stated noise is too small",
+                  shown / stated)
+            : fmt::format(
+                  ": u of the causes comes from the data, but u of the ideal fit from the stated "
+                  "noise; if that is wrong (a unit?), it is up to {:.2g} times too large",
+                  stated / shown);
   }
   return result(DataCheck::stated_noise, found, std::move(text));
 }
@@ -277,16 +276,16 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
     independent *= 0.5;
   } else {
     out.note =
-        "the data have no source of their own for the noise (no repeats, no stationary "
-        "capture, no second turn at one place): it is what the model leaves, and holds as "
-        "far as the model does";
+        "the data do not show the noise on their own (no repeats, no stationary capture, no second "
+        "revolution at one place): it is estimated from the residuals and is valid only if the "
+        "model is";
   }
   out.u_sigma_mm = out.sigma_mm / std::sqrt(2.0 * std::max(independent, 1.0));
   const bool measured = out.stationary_mm || out.repeated_mm || out.revolutions_mm;
   if (measured && residual > 1.25 * out.sigma_mm) {
     out.note = fmt::format(
-        "the extended model leaves {:.3g} µm where the {} shows {:.3g} µm: something is left that "
-        "no hypothesis has named",
+        "the final fit leaves {:.3g} µm, while the {} shows {:.3g} µm: part of the deviation has "
+        "no named cause",
         residual / mm_per_um, to_string(out.source), out.sigma_mm / mm_per_um);
   }
   find_gaps(point, mask, out);
@@ -326,9 +325,10 @@ std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& jo
   const auto& phi = noise.autoregression;
   list.push_back(result(
       DataCheck::correlated_noise, !phi.empty(),
-      phi.empty() ? "neighbouring readings do not correlate"
-                  : fmt::format("autoregression of order {}, φ1 = {:.3f}: readings are whitened",
-                                phi.size(), phi[0])));
+      phi.empty()
+          ? "neighbouring readings are not correlated"
+          : fmt::format("autoregression of order {}, φ1 = {:.3f}: TrueAxis whitens the readings",
+                        phi.size(), phi[0])));
   list.push_back(
       stated_noise(noise, static_cast<double>(joint.equations.count() - joint.solution.rank)));
   return list;
@@ -362,11 +362,11 @@ std::vector<std::string> off_centre_remark(const Problem& problem, const Model& 
       joint.sigma_mm *
       std::sqrt(0.5 * joint.solution.inverse.block(at, at, 2, 2).trace());  // of either component
   if (!(second > 3.0 * u)) return {};
-  return {fmt::format(
-      "X has a second harmonic of {:.2g} µm because the circle is off centre (e²/4R, in the "
-      "geometry of the surface); beside it {:.2g} ± {:.2g} µm (U, k = 2) of two undulations "
-      "are left: no ovality is found",
-      second / mm_per_um, left / mm_per_um, 2.0 * u / mm_per_um)};
+  return {
+      fmt::format("X has a second harmonic of {:.2g} µm because the circle is off centre (e²/4R, "
+                  "in the geometry of the surface). In addition, {:.2g} ± {:.2g} µm (U, k = 2) of "
+                  "two undulations remain: this is not an ovality",
+                  second / mm_per_um, left / mm_per_um, 2.0 * u / mm_per_um)};
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -48,13 +48,13 @@ std::string axes_lines(const Diagnosis& d) {
   const double k = d.extended.coverage_factor;
   const bool ideal = d.verdict == DiagnosisVerdict::ideal;
   std::string text =
-      wrapped("  stated   ", place(d.extended, k) +
-                                 (ideal ? ": that of the ideal fit; its U holds what effects too "
-                                          "small to be found may do to it"
-                                        : ": the average over what may have caused the readings"));
+      wrapped("  stated   ",
+              place(d.extended, k) +
+                  (ideal ? ": that of the ideal fit; its U includes causes too small to be found"
+                         : ": the average over the possible causes"));
   if (!ideal)
-    text += wrapped("  named    ", place(d.named, k) + ": were all causes those that are named");
-  text += wrapped("  ideal    ", place(d.baseline, k) + ": were there no cause");
+    text += wrapped("  named    ", place(d.named, k) + ": if every cause is the one named");
+  text += wrapped("  ideal    ", place(d.baseline, k) + ": if there is no cause");
   for (const AxisShare& share : telling_shares(d))
     text += wrapped("  why      ", share_text(share, k));
   return text;

@@ -105,10 +105,10 @@ std::string noise_text(const NoiseReport& noise) {
                   source_line("stated", noise.stated_mm));
   if (!noise.note.empty()) text += wrapped("  note        ", noise.note);
   if (!noise.autoregression.empty()) {
-    text +=
-        wrapped("  correlated  ",
-                fmt::format("autoregression {:.2f}: every test and uncertainty is widened by it",
-                            fmt::join(noise.autoregression, " ")));
+    text += wrapped(
+        "  correlated  ",
+        fmt::format("autoregression {:.2f}: TrueAxis widens every test and uncertainty by it",
+                    fmt::join(noise.autoregression, " ")));
   }
   text += rejected_lines("  masked      ", noise.masked);
   for (const std::string& gap : noise.gaps) text += wrapped("  gap         ", gap);
@@ -147,10 +147,10 @@ std::string advice_text(const Diagnosis& d) {
   if (may_be_cylinder(d.baseline))
     return text + "\nNext\n" +
            wrapped("  ",
-                   "take it for a cylinder: --surface cylinder, in a job surface = "
-                   "\"cylinder\"; this reading of it needs no other measurement");
+                   "fit a cylinder: --surface cylinder, in a job surface = \"cylinder\"; this "
+                   "needs no other measurement");
   const std::string next = next_text(d.next);
-  text += next.empty() ? "\nNext measurement\n  none: there is nothing to tell apart\n" : next;
+  text += next.empty() ? "\nNext measurement\n  none: all causes are told apart\n" : next;
   const bool either = std::ranges::any_of(d.findings, [&](const Finding& finding) {
     bool form = false, motion = false;
     for (const std::string& id : finding.members()) {
@@ -163,7 +163,7 @@ std::string advice_text(const Diagnosis& d) {
   if (either)
     text += '\n' + wrapped("",
                            "Roundness of the part or motion of the spindle: several sensors at "
-                           "once or a reversal tell for sure, order by order (`trueaxis spindle "
+                           "once or a reversal separate them, order by order (`trueaxis spindle "
                            "--advise` says where to place them)");
   if (d.plans.empty()) return text;
   std::size_t widest = 4;

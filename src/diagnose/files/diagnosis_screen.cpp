@@ -116,8 +116,8 @@ std::string diagnosis_screen(const Diagnosis& d, const std::string& form) {
   const bool sure = std::isfinite(d.extended.axis.u_at(d.extended.position_max_mm));
   if (d.verdict == DiagnosisVerdict::ideal)
     text += !d.extended.axis_known() ? ""
-            : sure                   ? "next   nothing: the axis may be used\n"
-                   : "next   probe more: these readings give the axis no uncertainty\n";
+            : sure                   ? "next   nothing: the axis can be used\n"
+                   : "next   probe more: these readings do not give an uncertainty of the axis\n";
   else if (!d.next.plan.empty())
     text +=
         line("next   ",

@@ -45,8 +45,9 @@ std::string held_out(const Gain& gain) {
   const Interval& ratio = gain.held_out_ratio;
   std::string text;
   if (before > 0.0 && std::isfinite(after)) {
-    text += fmt::format("; held-out RMS {:.3g} → {:.3g} µm (ratio {:.2f}, 95 % {:.2f}-{:.2f})",
-                        before / mm_per_um, after / mm_per_um, ratio.value, ratio.low, ratio.high);
+    text +=
+        fmt::format("; cross-validated RMS {:.3g} → {:.3g} µm (ratio {:.2f}, 95 % {:.2f}-{:.2f})",
+                    before / mm_per_um, after / mm_per_um, ratio.value, ratio.low, ratio.high);
   } else {
     text += fmt::format("; RMS {:.3g} → {:.3g} µm", gain.rms_before_mm / mm_per_um,
                         gain.rms_after_mm / mm_per_um);
@@ -69,7 +70,7 @@ std::string origin(const Diagnosis& d) {
 
 /// What a slip does to the meaning of the axis; empty for any other finding.
 std::string axis_note(const Finding& finding) {
-  return is_step(finding.term.effect->term) ? "that of the part as it stands after the slip" : "";
+  return is_step(finding.term.effect->term) ? "that of the part after the slip" : "";
 }
 
 bool is_face(const Diagnosis& d) { return d.baseline.surface == SurfaceKind::plane; }
@@ -92,8 +93,8 @@ std::string finding_block(const Finding& finding, std::size_t number, double k, 
 std::string unexplained_block(const Unexplained& u, double k) {
   return wrapped(" ?  ", harmonic_text(u.term.pattern) + ", " + dependence_text(u.term.pattern) +
                              ", amplitude " + plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm") +
-                             ": no catalogued cause explains it; it stays in the model so that "
-                             "the axis is protected; family-wise p " +
+                             ": no cause of the catalogue explains it; it remains in the model to "
+                             "protect the axis; family-wise p " +
                              probability(u.p_value));
 }
 
@@ -113,7 +114,7 @@ std::string gain_block(const Diagnosis& d) {
       gain.coaxiality_after.determined()
           ? expected + plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") + " → " + after
           : after);
-  if (!gain.blocks.empty()) text += wrapped("  held out    ", gain.blocks);
+  if (!gain.blocks.empty()) text += wrapped("  cross-val.  ", gain.blocks);
   return text;
 }
 
@@ -172,9 +173,9 @@ std::string finding_axis_bias(const Finding& finding, double coverage_factor, bo
       nothing ? "less than 0.001 µm"
               : plus_minus(finding.axis_shift, coverage_factor, 1.0 / mm_per_um, "µm");
   if (face)
-    return "left out it tilts the face by " + shift + " at its outer end" +
+    return "if not modelled, it tilts the face by " + shift + " at its outer end" +
            (finding.cosmetic ? ": cosmetic for the run-out" : "");
-  return "left out it moves the axis by " + shift +
+  return "if not modelled, it moves the axis by " + shift +
          (finding.cosmetic ? ": cosmetic for coaxiality" : "");
 }
 
@@ -208,8 +209,8 @@ std::string diagnosis_line(const Diagnosis& d) {
   std::string text;
   switch (d.verdict) {
     case DiagnosisVerdict::ideal:
-      return "IDEAL: nothing that the ideal " + std::string(to_string(d.baseline.surface)) +
-             " misses was found; RMS " + um(d.baseline.rms_mm) + ", noise of a reading " +
+      return "IDEAL: no deviation from the ideal " + std::string(to_string(d.baseline.surface)) +
+             " was found; RMS " + um(d.baseline.rms_mm) + ", noise of a reading " +
              um(d.noise.sigma_mm);
     case DiagnosisVerdict::effects:
       text = "EFFECTS: " + causes;
@@ -245,11 +246,11 @@ std::string diagnosis_text(const Diagnosis& d) {
   std::string text = wrapped("", diagnosis_line(d)) + "\n" + origin(d);
   if (d.baseline.status != FitStatus::converged) return text;
   if (d.extended.status != FitStatus::converged) {
-    text += wrapped("the extended model: ",
+    text += wrapped("the final fit: ",
                     std::string(to_string(d.extended.status)) + ": " + d.extended.message);
   }
   if (!d.findings.empty()) {
-    text += fmt::format("\nFindings, the most harmful first; ± U (k = {:.3g})\n", k);
+    text += fmt::format("\nCauses, the most harmful first; ± U (k = {:.3g})\n", k);
     for (std::size_t i = 0; i < d.findings.size(); ++i)
       text += finding_block(d.findings[i], i + 1, k, is_face(d));
   }

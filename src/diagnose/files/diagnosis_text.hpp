@@ -9,7 +9,8 @@
 
 namespace trueaxis {
 
-/// The verdict in one line: "EFFECTS: 2 causes found; held-out RMS 99.2 → 38.1 µm (ratio 0.38 …".
+/// The verdict in one line: "EFFECTS: 2 causes found; cross-validated RMS 99.2 → 38.1 µm (ratio
+/// 0.38 …".
 std::string diagnosis_line(const Diagnosis& diagnosis);
 
 /// The diagnosis for a person at a terminal, 100 columns wide: verdict, findings by axis_bias, what

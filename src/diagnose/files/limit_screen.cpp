@@ -57,12 +57,12 @@ std::string limit_screen(const Diagnosis& d) {
     return would_be(most.share) + "if it were sure what " + most.instead_of + " is" +
            (d.next.what.empty() ? "" : ": " + d.next.what) + "\n";
   if (most.effect.empty())
-    return would_be(0.75 * most.share) + "with four times as many readings: the noise limits it\n";
+    return would_be(0.75 * most.share) + "with four times as many readings: noise is the limit\n";
   const Effect* effect = d.entry(most.effect);
   if (effect == nullptr) return "";
   if (effect->stated)
-    return would_be(most.share) + "were " + std::string(info_of(effect->stated->kind).name) +
-           " known exactly" + remedy(d, *effect) + "\n";
+    return would_be(most.share) + "if " + std::string(info_of(effect->stated->kind).name) +
+           " were known exactly" + remedy(d, *effect) + "\n";
   const std::string size = assumed(*effect);
   return would_be(most.share) + "without " + most.effect + ", which these readings do not show" +
          (size.empty() ? "" : " (" + size + " assumed)") + remedy(d, *effect) + "\n";

@@ -81,7 +81,7 @@ std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const 
       along = "bent along Z";
       break;
     case Harmonic::Envelope::square:
-      along = "growing to the rim";
+      along = "growing towards the rim";
       break;
   }
   return count + (whole ? " per revolution, " : " per revolution (not a whole number), ") + size +
@@ -115,7 +115,8 @@ std::string seen_text(const Finding& finding, double k) {
                                       fmt::format("{:.4g} mm long, ", shape.period_mm),
                                       "longer than any part, ") +
                              size
-                       : fmt::format("a spiral of {:.4g} mm a turn, {}", shape.period_mm, size);
+                       : fmt::format("a spiral of {:.4g} mm per revolution, {}", shape.period_mm,
+                                     size);
           },
           [&](const PeriodicInTime&) {
             return fmt::format("an oscillation of {:.4g} Hz, {}", shape.frequency_hz, size);

@@ -31,9 +31,11 @@ std::vector<double> done_mm(const ProbeStream& stream, const FitOptions& options
     if (influence.value == 0.0 || effect == effect_catalogue().end()) continue;
     const InfluenceInfo& info = info_of(influence.kind);
     if (effect->needs.time && !point.has_time)
-      throw InputError(stream.source, fmt::format("{} is stated, but the stream has no t: give a "
-                                                  "time for every reading, or leave it out",
-                                                  info.stated));
+      throw InputError(
+          stream.source,
+          fmt::format(
+              "{} is stated, but the stream has no t: give a time for every reading, or remove it",
+              info.stated));
     const Hypothesis term = of_effect(*effect, typical_shape(*effect, point));
     const std::vector<double> one = is_lag(term) || is_delay(term)
                                         ? timing_mm(term, influence.value, point)
@@ -58,8 +60,8 @@ ProbeStream corrected_by_known(ProbeStream stream, const FitOptions& options) {
   }
   for (const Influence& influence : options.influences)
     if (influence.value != 0.0)
-      stream.read_as.push_back(
-          fmt::format("the readings are corrected by the stated {}", info_of(influence.kind).name));
+      stream.read_as.push_back(fmt::format("TrueAxis corrects the readings by the stated {}",
+                                           info_of(influence.kind).name));
   return stream;
 }
 

@@ -87,13 +87,13 @@ constexpr std::string_view head = R"(# The catalogue of effects
 Written by `trueaxis effects --markdown`; a test holds this page against the catalogue. The equations are in
 [theory.md](../explanation/theory.md).
 
-What the readings of a real turned part contain and the ideal surface does not. An effect is a term in one slot of the measuring chain,
+What the readings of a real turned part contain and an ideal cone, cylinder or plane does not. An effect is a term in one slot of the measuring chain,
 
     (C, Z, t) → A arguments C', Z' → B probe line → C part's surface → D machine X → E sensor's response → X_M, with noise ε
 
-and is fixed to a frame: part, chuck, spindle, machine, probe or time. The frame decides what becomes of it when the part is
+and is fixed to a frame: part, chuck, spindle, machine, probe or time. The frame decides how it changes when the part is
 clamped again, the spindle reversed, the speed changed or the probe sent back, and so which measurement tells two effects apart.
-Typical sizes are what machines show; they are no limits. rho is the form of the part along the normal of its surface, theta the polar
+Typical sizes are what machines show, not limits. rho is the form of the part along the normal of its surface, theta the polar
 angle about the part's own axis, s the place along it, and u is Z (for effects of the part: s) scaled to −1 … 1 over the probed length.
 P_l is Legendre's polynomial of degree l, alpha the half angle of a cone, omega the speed of the spindle, v_z that of Z, r (and R at the
 end) the distance from the axis of a face, i the angle of the normal to the probe line. A face is read along Z at (C, X): X_M is then its
@@ -160,7 +160,7 @@ void section(std::string& out, const Effect& e) {
   for (const Separation& s : e.separations)
     apart += fmt::format("{}{}: {}", apart.empty() ? "" : "<br>", s.code, cell(s.how));
   row(out, "told apart by", apart);
-  if (e.axis_bias) row(out, "bias of the axis when left out", cell(e.axis_bias->text));
+  if (e.axis_bias) row(out, "bias of the axis if not modelled", cell(e.axis_bias->text));
   row(out, "source", cell(e.source));
 }
 
@@ -185,8 +185,7 @@ std::string possible_size(const EffectParameter& parameter) {
 }
 
 std::string effects_list_text() {
-  return "Effects that the ideal surface misses ('trueaxis effects ID' explains one)\n" +
-         list(false) +
+  return "Effects that an ideal fit misses ('trueaxis effects ID' explains one)\n" + list(false) +
          "\nChecks of the data: handled and reported, never named as the cause of a form\n\n" +
          list(true);
 }
@@ -215,7 +214,7 @@ std::string effect_text(const Effect& effect) {
                 format("{} ({}): {}", separation.code, known->what, separation.how));
   }
   if (effect.axis_bias)
-    out += line("axis bias", format("{}, to the axis when left out", effect.axis_bias->text));
+    out += line("axis bias", format("{}, to the axis if not modelled", effect.axis_bias->text));
   return out + line("source", effect.source);
 }
 

@@ -120,7 +120,7 @@ FitStatus status_from(const std::string& text) {
         FitStatus::too_few, FitStatus::implausible}) {
     if (text == to_string(status)) return status;
   }
-  throw InputError("fit", "no fit ends `" + text + "`");
+  throw InputError("fit", "a fit does not end with `" + text + "`");
 }
 
 /// Of the parameters x0, y0, l, m; a section has no l, m, a plane no x0, y0.
@@ -241,10 +241,11 @@ FitResult fit_from_json(std::string_view text, const std::string& path) {
   try {
     const Json json = Json::parse(text);
     if (json.at("schema") != "trueaxis.fit/1")
-      throw InputError(path, "is no trueaxis.fit/1: write one with 'trueaxis fit --json'");
+      throw InputError(path, "is not a trueaxis.fit/1 file: write one with 'trueaxis fit --json'");
     const std::string status = json.at("status");
     if (status != to_string(FitStatus::converged))
-      throw InputError(path, "its fit is not converged (" + status + "): no correction from it");
+      throw InputError(path,
+                       "its fit is not converged (" + status + "): it cannot give a correction");
     FitResult fit = fit_from_object(json);
     for (const double covariance : fit.axis.covariance.by_rows) {
       if (!std::isfinite(covariance)) throw unreadable("its axis has no covariance");

@@ -118,8 +118,8 @@ std::string description(const FormResult& result) {
     datum = fmt::format("{}, {}", result.datum_source, name_of(options.datum));
   return fmt::format(
       "Form of {} ({}) about the minimum zone. Filter: {}. Datum: {}. combinedUncertainty is the "
-      "standard uncertainty u, meanError what noise adds on average, which is in u and not taken "
-      "off. Status by ISO 14253-1 with U = {:g} u.",
+      "standard uncertainty u, meanError what noise adds on average, which is included in u and "
+      "not subtracted. Status by ISO 14253-1 with U = {:g} u.",
       result.source, result.input_hash, filter, datum, options.coverage_factor);
 }
 

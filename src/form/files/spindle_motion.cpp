@@ -13,14 +13,14 @@ constexpr double same_direction_deg = 1e-6;
 
 std::vector<SpindleOrder> motion_from(const Json& json, const std::string& path) {
   if (json.value("schema", "").rfind("trueaxis.spindle/", 0) != 0)
-    throw InputError(path, "is no result of `trueaxis spindle --json`");
+    throw InputError(path, "is not a result of `trueaxis spindle --json`");
   if (!json.contains("radial"))
-    throw InputError(path, "has no radial error motion: form takes that of radial sensors");
+    throw InputError(path, "has no radial error motion: form needs that of radial sensors");
   const Json& radial = json.at("radial");
   const double direction = number_from(radial.at("sensitive_direction").at("value"));
   if (std::abs(std::remainder(direction, 360.0)) > same_direction_deg)
     throw InputError(path, "states the motion along " + std::to_string(direction) +
-                               " deg, and the probe stands along X: `trueaxis spindle "
+                               " deg, and the probe is along X: `trueaxis spindle "
                                "--sensitive-deg 0` states it there");
   std::vector<SpindleOrder> orders;
   for (const Json& one : radial.at("orders")) {

@@ -12,7 +12,7 @@ namespace trueaxis {
 namespace {
 
 constexpr const char* why_no_u =
-    "an association by few readings takes in the noise of these; the axis of the job has the u";
+    "an association by few readings includes their noise; the axis of the job has the u";
 
 Json end_object(const DatumAxis& one, double z_mm, double off_mm) {
   const auto [x, y] = one.axis.at(z_mm);

@@ -25,13 +25,13 @@ bool all_known(TomlTable target, const char* key, const Names& names, const Job&
     const auto times = std::ranges::count(known, name);
     if (times == 1) continue;
     all = false;
-    target.complain(key, times == 0
-                             ? fmt::format("names '{}', which is no reference of this job: those "
-                                           "are {}",
-                                           name, fmt::join(known, ", "))
-                             : fmt::format("names '{}', as several references are called: give "
-                                           "each a `name` of its own",
-                                           name));
+    target.complain(
+        key, times == 0
+                 ? fmt::format("names '{}', which is not a reference of this job: those are {}",
+                               name, fmt::join(known, ", "))
+                 : fmt::format(
+                       "names '{}', a name that several references share: give each its own `name`",
+                       name));
   }
   return all;
 }
@@ -48,17 +48,19 @@ bool makes_a_datum(TomlTable target, const char* key, const Names& names, const 
   if (faces > 0 && names.size() > 1) {
     target.complain(
         key,
-        "names a face beside another reference: a common datum is of cylinders and cones; name the "
-        "face in the other one of `datum` and `secondary_datum`");
+        "names a face together with another reference: a common datum consists of cylinders and "
+        "cones; name the face in the other one of `datum` and `secondary_datum`");
     return false;
   }
   for (const JobReference& reference : job.references)
     if (names.size() > 1 && reference.association &&
         *reference.association != Criterion::gaussian &&
         std::ranges::count(names, reference.name) > 0) {
-      target.complain(key, fmt::format("is a common datum, whose axis is by least squares: leave "
-                                       "the `association` of '{}' out",
-                                       reference.name));
+      target.complain(
+          key,
+          fmt::format(
+              "is a common datum, whose axis is by least squares: remove the `association` of '{}'",
+              reference.name));
       return false;
     }
   return true;
@@ -76,7 +78,7 @@ std::optional<Criterion> read_association(TomlTable reference, SurfaceKind surfa
                                    {"maximum_inscribed", Criterion::maximum_inscribed}},
                                   Criterion::gaussian);
   if (surface != SurfaceKind::cylinder && surface != SurfaceKind::cone) {
-    reference.complain("association", "is of a cylinder or cone: remove it");
+    reference.complain("association", "applies to a cylinder or cone: remove it");
     return {};
   }
   const std::string objection = association_objection(
@@ -86,10 +88,10 @@ std::optional<Criterion> read_association(TomlTable reference, SurfaceKind surfa
   if (!objection.empty())
     reference.complain("association", objection);
   else if (criterion == of_other_side)
-    reference.complain("association",
-                       bore
-                           ? "is of a shaft: the datum of a bore is the maximum_inscribed cylinder"
-                           : "is of a bore: the datum of a shaft is the minimum_circumscribed one");
+    reference.complain(
+        "association",
+        bore ? "applies to a shaft: the datum of a bore is the maximum_inscribed cylinder"
+             : "applies to a bore: the datum of a shaft is the minimum_circumscribed cylinder");
   return criterion;
 }
 
@@ -97,26 +99,25 @@ DatumSystem read_datums(TomlTable target, const Job& job) {
   const Names first = target.texts("datum"), second = target.texts("secondary_datum");
   for (const char* key : {"datum", "secondary_datum"})
     if (target.has(key) && (key == std::string("datum") ? first : second).empty())
-      target.complain(key, "names no reference: leave it out for the compromise of all");
+      target.complain(key, "does not name a reference: remove it for the compromise of all");
   if (first.empty() && !second.empty())
-    target.complain("secondary_datum", "needs a primary one: say `datum` as well");
+    target.complain("secondary_datum", "needs a primary datum: give `datum` as well");
   if (first.empty() || !makes_a_datum(target, "datum", first, job)) return {};
   if (!second.empty() && !makes_a_datum(target, "secondary_datum", second, job)) return {};
   const bool face = names_a_face(job, first.front());
   const bool needs_place = !job.target || job.target->kind != TargetKind::face;
   if (second.empty() && face && needs_place) {
     target.complain("datum",
-                    "is a face, which fixes the direction and no place: name the cylinder "
-                    "or cone that does as `secondary_datum`");
+                    "is a face, which fixes the direction but not the place: name a cylinder or "
+                    "cone as `secondary_datum`");
     return {};
   }
   if (second.empty()) return {first};
   if (names_a_face(job, second.front()) == face) {
     target.complain("secondary_datum",
-                    face
-                        ? "is a face as the primary one is: name a cylinder or cone"
-                        : "is an axis beside the primary one, which fixes it already: name both in "
-                          "`datum` for the axis that they share, or a face here");
+                    face ? "is a face, as is the primary datum: name a cylinder or cone"
+                         : "is an axis, but the primary datum already fixes the axis: name both in "
+                           "`datum` for their common axis, or a face here");
     return {};
   }
   return {first, second};

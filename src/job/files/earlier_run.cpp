@@ -46,11 +46,11 @@ EarlierRun take_away_earlier(Outputs& outputs, const Job& job,
         std::ranges::find(job.outputs, file.name, &ControlTable::file) != job.outputs.end();
     if (table || !std::filesystem::exists(place)) continue;
     if (outputs.remove_unchanged(place, file.hash)) {
-      said.removed += "gone   " + place + ": of an earlier job\n";
+      said.removed += "gone   " + place + ": from an earlier job\n";
     } else {
       said.kept += "warning: " + place +
-                   " is of an earlier job and was changed since: it stays, and is none of this "
-                   "result\n";
+                   " is from an earlier job and was changed since: TrueAxis keeps it, but it does "
+                   "not belong to this result\n";
     }
   }
   return said;

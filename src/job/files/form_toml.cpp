@@ -40,16 +40,16 @@ FormTask read_form_task(TomlTable table, SurfaceKind surface) {
   task.runout_datum = table.text("runout_datum", "");
   read_filter(table, task);
   if (task.roundness_tolerance_mm && !is_round(surface))
-    table.complain("roundness_tolerance_mm", "is of a cone, cylinder or section: remove it");
+    table.complain("roundness_tolerance_mm", "applies to a cone, cylinder or section: remove it");
   if (task.cylindricity_tolerance_mm && surface != SurfaceKind::cylinder)
     table.complain("cylindricity_tolerance_mm",
-                   "is of a cylinder: remove it, or say roundness_tolerance_um");
+                   "applies to a cylinder: remove it, or use roundness_tolerance_um");
   if (task.runout_tolerance_mm && task.runout_datum.empty())
     table.complain("runout_tolerance_mm",
-                   "needs what it is about: runout_datum = \"spindle axis\" or the name of "
+                   "needs a datum: runout_datum = \"spindle axis\" or the name of "
                    "another reference");
   if (!task.runout_tolerance_mm && !task.runout_datum.empty())
-    table.complain("runout_datum", "is of no use without a runout_tolerance_um");
+    table.complain("runout_datum", "has no effect without a runout_tolerance_um");
   return task;
 }
 
@@ -63,11 +63,11 @@ void check_runout_datums(TomlTable root, const Job& job) {
       root.complain("reference", "'" + reference.name + "': runout_datum '" + datum + "' " + why);
     };
     if (named == job.references.end())
-      complain("is no reference of this job, and not \"spindle axis\"");
+      complain("is neither a reference of this job nor \"spindle axis\"");
     else if (named->name == reference.name)
       complain("is the reference itself: name another one or \"spindle axis\"");
     else if (!is_round(named->fit.surface) || reference.fit.surface == SurfaceKind::plane)
-      complain("cannot be had of a face: say \"spindle axis\"");
+      complain("cannot be a face: use \"spindle axis\"");
   }
 }
 

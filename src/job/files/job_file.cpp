@@ -30,7 +30,7 @@ std::vector<ProbeStream> read_streams(const JobFile& file) {
           !overlap(file.streams[i].z, file.streams[k].z))
         continue;
       diagnostics.push_back({file.streams[i].path, 0, 0,
-                             "holds the readings of " + references[k].name + " (" +
+                             "contains the readings of " + references[k].name + " (" +
                                  file.streams[k].path + ") again, for the reference " +
                                  references[i].name +
                                  ": name the stream of each, or give each its own range of Z "

@@ -294,7 +294,7 @@ std::vector<ResultFile> files_beside(const JobResult& result) {
     const MadeControlTable& made = result.control_files[i];
     files.push_back(
         {output.file, made.text,
-         fmt::format("{}, rounded to {:.3g} µm, as its control reads it off by at most {:.3g} µm",
+         fmt::format("{}, rounded to {:.3g} µm, as its control reads it, off by at most {:.3g} µm",
                      to_string(output.format), made.rounding_mm / mm_per_um,
                      made.off.largest_mm / mm_per_um)});
   }

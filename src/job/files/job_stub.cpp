@@ -27,7 +27,7 @@ std::string reference_text(const std::string& file, const std::string& name,
   if (seat)
     text += fmt::format("z_from_mm = {:.10g}\nz_to_mm = {:.10g}\n", seat->z.from_mm, seat->z.to_mm);
   if (stream.kind == StreamKind::lateral) text += "feature = \"shaft\"        # or \"bore\"\n";
-  return text + "# loss = \"tukey\"         # where chips or coolant left spikes\n";
+  return text + "# loss = \"tukey\"         # if chips or coolant left spikes\n";
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ std::string job_stub(const std::string& path, const ProbeStream& stream) {
       "# trueaxis run THIS_FILE -o result\n"
       "name = \"{0}\"\n\n"
       "[sensor]\n"
-      "# ball_radius_mm = 1.0   # where the readings are of the ball's centre\n"
+      "# ball_radius_mm = 1.0   # if the readings are those of the ball's centre\n"
       "# noise_um = 1.0         # standard deviation of one reading, if known\n"
       "# u_height_um = 20       # how well the probe's height is set (standard uncertainty)\n\n",
       title);

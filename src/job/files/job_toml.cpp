@@ -92,7 +92,7 @@ TargetSurface read_target(TomlTable table, Job& job) {
   target.bore = table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
   if (target.kind == TargetKind::face) {
     if (target.bore)
-      table.complain("feature", "is of no use: a face is neither shaft nor bore, remove it");
+      table.complain("feature", "has no effect: a face is neither shaft nor bore; remove it");
     target.z_face_mm = table.required_number("z_mm");
     target.radius_start_mm = table.required_number("radius_start_mm", Range::non_negative());
     target.radius_end_mm = table.required_number("radius_end_mm", Range::non_negative());
@@ -124,7 +124,7 @@ TargetSurface read_target(TomlTable table, Job& job) {
                                     std::pair("overrun_mm", target.path_end_mm())})
     if (face && end_mm < 0.0)
       table.complain(
-          key, fmt::format("takes the tool {:.6g} mm past the spindle axis: lower it", -end_mm));
+          key, fmt::format("moves the tool {:.6g} mm past the spindle axis: lower it", -end_mm));
   return target;
 }
 
@@ -167,11 +167,9 @@ void check_nose(TomlTable cut, const TargetSurface& target, const ToolSetup& too
 void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
   const double travel = target.path_end_mm() - target.path_start_mm();
   if (tool.feed_mm_per_rev > std::abs(travel)) {
-    cut.complain(
-        "feed_mm_per_rev",
-        fmt::format("is more than the length of the cut, {:.6g} mm, which would be over in "
-                    "less than a revolution",
-                    std::abs(travel)));
+    cut.complain("feed_mm_per_rev", fmt::format("is more than the length of the cut, {:.6g} mm: "
+                                                "the cut would take less than one revolution",
+                                                std::abs(travel)));
     return;
   }
   const double rows = std::abs(travel) / tool.feed_mm_per_rev * tool.rows_per_revolution;
@@ -209,7 +207,7 @@ Actuator read_actuator(TomlTable table) {
   if (!a.measured.empty()) {
     for (const char* key : {"natural_frequency_hz", "damping", "delay_s"}) {
       if (table.has(key))
-        table.complain(key, "would count twice beside a measured response: remove it");
+        table.complain(key, "would count twice with a measured response: remove it");
     }
   }
   if (!a.measured.empty() && a.measured.back().frequency_hz == 0.0)
@@ -227,8 +225,8 @@ void read_correction(TomlTable table, Job& job) {
   for (const std::string& id : job.include) {
     const auto known = repeating_effects();
     if (std::find(known.begin(), known.end(), id) != known.end()) continue;
-    table.complain("include", fmt::format("holds '{}', which no correction may follow; those that "
-                                          "repeat at the tool are {}",
+    table.complain("include", fmt::format("contains '{}', which a correction must not follow; "
+                                          "those that repeat at the tool are {}",
                                           id, fmt::join(known, ", ")));
   }
 }
@@ -246,7 +244,7 @@ void read_outputs(TomlTable root, JobFile& file) {
         job.outputs, [&](const ControlTable& other) { return other.file == output.file; });
     if (taken || output.file == "table.csv" || output.file == "result.json" ||
         output.file == "report.html")
-      table.complain("file", "is the name of another result: give it one of its own");
+      table.complain("file", "is the name of another result: use another name");
     job.outputs.push_back(std::move(output));
   }
 }
@@ -267,12 +265,12 @@ void read_cut(TomlTable root, JobFile& file, bool required) {
     read_outputs(root, file);
   } else {
     for (TomlTable table : root.tables("output")) {
-      table.complain("format", "is of no use without a [target]: add it, or remove this table");
+      table.complain("format", "has no effect without a [target]: add it, or remove this table");
       table.ignore_rest();
     }
     for (const char* key : {"cut", "actuator", "correction"}) {
       if (auto table = root.maybe_table(key)) {
-        root.complain(key, "is of no use without a [target]: add it, or remove this table");
+        root.complain(key, "has no effect without a [target]: add it, or remove this table");
         table->ignore_rest();
       }
     }
@@ -305,12 +303,12 @@ JobFile read_job_toml(std::string_view content, const std::string& path) {
     if (!is_diagnosed(reference.fit.surface))
       root.complain("reference", "reference '" + reference.name + "' is a " +
                                      to_string(reference.fit.surface) +
-                                     ", which `trueaxis fit` associates and a job does not take: a "
-                                     "job's references are cones, cylinders, faces and sections");
+                                     ", which `trueaxis fit` can fit but a job cannot use: a job's "
+                                     "references are cones, cylinders, faces and sections");
     if (job.target && reference.fit.surface == SurfaceKind::section) {
       root.complain("target", "reference '" + reference.name +
-                                  "' is one section, which shows no direction of an axis: probe it "
-                                  "along Z as a cylinder or cone");
+                                  "' is one section, which does not show the direction of an axis: "
+                                  "probe it along Z as a cylinder or cone");
     }
   }
   document.finish();

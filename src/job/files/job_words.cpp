@@ -97,17 +97,17 @@ std::string datum_words(const IdentifiedJob& job) {
   const DatumSystem& datums = job.job.datums;
   const std::string first = fmt::format("{}", fmt::join(datums.front(), " and "));
   if (is_face(job, datums.front().front()))
-    return datums.size() < 2
-               ? fmt::format("the direction is that of {}", first)
-               : fmt::format("the direction is that of {}, the place that of {} held to it", first,
-                             fmt::join(datums[1], " and "));
-  std::string how =
-      datums.front().size() < 2
-          ? fmt::format("the axis is that of {}", first)
-          : fmt::format(
-                "{} share one axis with radii of their own, by least squares, each by its "
-                "weight however many readings it has",
-                first);
+    return datums.size() < 2 ? fmt::format("the direction is that of {}", first)
+                             : fmt::format(
+                                   "the direction is that of {}; the place is that of {}, fitted "
+                                   "with this direction",
+                                   first, fmt::join(datums[1], " and "));
+  std::string how = datums.front().size() < 2
+                        ? fmt::format("the axis is that of {}", first)
+                        : fmt::format(
+                              "{} share one axis with radii of their own, by least squares, each "
+                              "with its weight, whatever its number of readings",
+                              first);
   if (datums.size() > 1)
     how += fmt::format("; {} fixes Z, which no axis depends on", fmt::join(datums[1], " and "));
   return how;

@@ -56,7 +56,7 @@ ControlTable read_output(TomlTable table, std::vector<std::string>& templates) {
   out.file = table.text("file", usual_name(out.format));
   if (out.file.empty() || out.file != std::filesystem::path(out.file).filename().string() ||
       out.file == ".." || out.file == "." || out.file == "-")
-    table.complain("file", "is no plain name: it goes into the folder of the results");
+    table.complain("file", "is not a plain file name: it goes into the folder of the results");
   const bool cec = out.format == ControlFormat::sinumerik_cec;
   const bool gridded =
       cec || out.format == ControlFormat::grid || out.format == ControlFormat::beckhoff_crosscomp2;

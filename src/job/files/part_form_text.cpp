@@ -84,7 +84,8 @@ std::string judgement_text(const PartForm& form, const FormJudgement& one) {
   if (one.conformity == Conformity::not_judged) return head + one.why + "; " + tolerance;
   std::string value = value_text(one.high, k);
   if (const std::string low = value_text(one.low, k); low != value)
-    value = fmt::format("{} or {}, as what was seen is not or is of the part", low, value);
+    value = fmt::format("{} or {}, depending on whether the motion found belongs to the part", low,
+                        value);
   const std::string place = one.z_mm ? fmt::format(" at Z {:.4g} mm", hundredths(*one.z_mm)) : "";
   return fmt::format("{}{}{}, {} ({})", head, value, place, tolerance, band_words(form));
 }
@@ -126,10 +127,8 @@ std::string part_form_text(const PartForm& form) {
       line(
           fmt::format("less {}: {}", fmt::join(form.motion, ", "), values_text(*form.less_motion)));
     if (form.less_open)
-      line(
-          fmt::format("less {} as well, of which the readings do not tell whether it is of the "
-                      "part: {}",
-                      fmt::join(form.open, ", "), values_text(*form.less_open)));
+      line(fmt::format("less {} as well, which may or may not belong to the part: {}",
+                       fmt::join(form.open, ", "), values_text(*form.less_open)));
   }
   for (const FormJudgement& one : form.judgements) line(judgement_text(form, one));
   return text;

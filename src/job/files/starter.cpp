@@ -28,7 +28,7 @@ feed_mm_per_rev = 1
 readings_per_revolution = 36.7   # not a whole number: every revolution reads other angles
 speed_rpm = 60
 
-[[effect]]                  # what the ideal shaft has not: three lobes of 2 um
+[[effect]]                  # deviation from the ideal shaft: three lobes of 2 um
 id = "part.roundness"       # trueaxis effects lists them all
 order = 3
 amplitude_um = 2
@@ -37,9 +37,9 @@ amplitude_um = 2
 constexpr std::string_view job =
     R"(# From the stream to the table that cuts true to the shaft's own axis:
 #   trueaxis run job.toml -o result
-name = "bearing seat beside a probed shaft"
+name = "bearing seat next to a probed shaft"
 
-[header]                    # stands at the head of the report; date = 2026-03-14 too
+[header]                    # appears at the head of the report; date = 2026-03-14 too
 part = "shaft"
 serial = ""
 operator = ""
@@ -47,14 +47,14 @@ machine = ""
 probe = ""
 
 [sensor]
-u_height_um = 20            # how well the probe stands at the height of the spindle axis
+u_height_um = 20            # how well the probe is at the height of the spindle axis
 
 [[reference]]               # as many as the cut is to be true to
 name = "shaft"
 stream = "stream.csv"
 surface = "cylinder"        # cone, cylinder, plane (a face), section (one circle)
 feature = "shaft"           # or bore
-loss = "plain"              # tukey where chips or coolant leave spikes
+loss = "plain"              # tukey if chips or coolant leave spikes
 
 [target]                    # what is to be cut, about the axis that is found
 surface = "cylinder"
@@ -75,7 +75,7 @@ natural_frequency_hz = 600
 damping = 0.7
 sampling_hz = 20000
 
-# [[output]]                # the correction for a control, beside table.csv
+# [[output]]                # the correction for a control, in addition to table.csv
 # format = "grid"           # halstreamer, servo_nc, sinumerik_cec, beckhoff_crosscomp2
 )";
 

@@ -37,7 +37,7 @@ void read_shape(TomlTable& table, bool rotary, UncertainAmount& amount) {
   take("degree", Shape::legendre);
   take("cos", Shape::cosine);
   take("sin", Shape::sine);
-  if (shapes > 1) table.complain("degree", "is one of degree, cos and sin: leave out the others");
+  if (shapes > 1) table.complain("degree", "is one of degree, cos and sin: remove the others");
   if (shapes > 0 && !amount.name.component)
     table.complain("name", "is a location error: a constant, without degree, cos or sin");
   if (amount.shape == Shape::legendre) {
@@ -46,7 +46,7 @@ void read_shape(TomlTable& table, bool rotary, UncertainAmount& amount) {
       amount.low = ends[0], amount.high = ends[1];
     else
       table.complain(range,
-                     "is needed beside degree: the range of Legendre's polynomial, [low, "
+                     "is needed with degree: the range of Legendre's polynomial, [low, "
                      "high]");
   } else if (amount.shape != Shape::constant) {
     amount.high = rotary ? table.number(period, two_pi, Range::positive())
@@ -109,7 +109,7 @@ std::string trouble_of(const MatrixXd& matrix, const std::vector<UncertainAmount
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
   if (eigen.eigenvalues()[0] < -as_rounded * static_cast<double>(matrix.rows()))
     return fmt::format(
-        "is no covariance: a sum of its amounts would have a negative variance "
+        "is not a covariance: a sum of its amounts would have a negative variance "
         "(least eigenvalue of the correlations {:.3g})",
         eigen.eigenvalues()[0]);
   return "";

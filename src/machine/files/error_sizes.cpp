@@ -73,9 +73,8 @@ std::string size_trouble(const ErrorName& name, double size) {
   const double most = largest_size(name);
   if (!(std::abs(size) > most)) return "";
   return fmt::format(
-      "makes {} {}, and {} beyond {} is rather in another unit: correct the unit, or say that it "
-      "is "
-      "so large by large_errors = true (on the command line --large-errors)",
+      "makes {} {}, and {} beyond {} is probably in another unit: correct the unit, or confirm the "
+      "size with large_errors = true (on the command line --large-errors)",
       to_string(name), shown(name, size),
       name.body == workpiece_body ? "an error of a workpiece"
       : name.component            ? "a component error"

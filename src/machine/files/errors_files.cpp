@@ -18,7 +18,7 @@ ErrorModel read_one(std::string_view content, const std::string& path, const Mac
   if (is_errors_toml(path)) return parse_errors_toml(content, path, machine, said.large_errors);
   if (!said.foreign_sign)
     throw InputError(path,
-                     "does not say the sign of its component errors: give --sign moving_part or "
+                     "does not state the sign of its component errors: give --sign moving_part or "
                      "--sign tool_minus_workpiece");
   return path.ends_with(".csv")
              ? read_isg_csv(content, path, machine, *said.foreign_sign, said.large_errors)

@@ -109,7 +109,7 @@ void read_error(TomlTable table, const Machine& machine, bool large, ErrorModel&
   }
   const Kind kind = read_kind(table);
   if (!name->component && kind != Kind::constant)
-    table.complain("kind", "must be \"constant\": " + text + " is no function of a position");
+    table.complain("kind", "must be \"constant\": " + text + " is not a function of a position");
   const Keys keys(*name);
   ErrorTerm term{*name, read_function(table, kind, keys)};
   term.u = table.number("u" + keys.value, 0.0, Range::non_negative());
@@ -136,7 +136,7 @@ void read_reference(TomlTable& root, const Machine& machine, ErrorModel& errors)
       reference = read_vector(*table, letter);
       for (double& component : reference) component *= spelling.factor;
       if (table->has(letter) && machine.find(static_cast<AxisName>(i)) == nullptr)
-        table->complain(letter, "is no axis of the machine");
+        table->complain(letter, "is not an axis of the machine");
     }
     return;
   }

@@ -67,7 +67,7 @@ class EtalonReader {
         equals == std::string_view::npos ? "" : trimmed(text.substr(equals + 1));
     double constant = 0.0;
     if (!block_open_ || filled_) {
-      complain("stands in no block, or a second time in one: begin one with [NAME]");
+      complain("is outside a block, or repeated in one: begin a block with [NAME]");
     } else if (key == "VALUE" && parse_number(value, constant)) {
       check_size(constant);
       add(ConstantError{constant});
@@ -88,7 +88,7 @@ class EtalonReader {
     double at = 0.0, value = 0.0;
     if (!text.empty()) {
       if (fields.size() != 2 || !parse_number(fields[0], at) || !parse_number(fields[1], value)) {
-        complain('"' + std::string(text) + "\" is no row `argument value`");
+        complain('"' + std::string(text) + "\" is not a row `argument value`");
       } else if (name_) {
         at *= edge_unit(static_cast<AxisName>(name_->body % axis_count));
         if (!grid_.at.empty() && at <= grid_.at.back()) complain("arguments must ascend");

@@ -46,7 +46,7 @@ std::vector<Block> blocks_of(std::string_view content, const std::string& path,
       block.rows.push_back(std::move(row));
     else
       wrong.push_back({path, number, 0,
-                       fmt::format("is no row of {} numbers under its header (line {})",
+                       fmt::format("is not a row of {} numbers under its header (line {})",
                                    block.header.size(), block.header_line)});
   });
   if (blocks.back().header.empty()) blocks.pop_back();
@@ -65,7 +65,7 @@ class BlockReader {
     const auto argument = axis_of(block_.header.front());
     if (block_.rows.empty()) complain(line, "has a header and no rows");
     if (argument && machine_.find(*argument) == nullptr)
-      complain(line, block_.header.front() + " is no axis of the machine");
+      complain(line, block_.header.front() + " is not an axis of the machine");
     if (argument && block_.rows.size() == 1) complain(line, "needs two rows or more");
     if (!argument && block_.rows.size() > 1)
       complain(line, "has no axis as its first column: then one row of constants only");
@@ -84,7 +84,7 @@ class BlockReader {
               const Complain& complain) const {
     const std::string& text = block_.header[i];
     if (axis_of(text)) {
-      complain(text + " is a second argument: errors of several axes are not taken");
+      complain(text + " is a second argument: TrueAxis does not read errors of several axes");
       return;
     }
     const std::string trouble = error_name_trouble(text, machine_);
@@ -94,7 +94,7 @@ class BlockReader {
     }
     const ErrorName name = *parse_error_name(text);
     if (argument && (!name.component || name.body != index_of(*argument))) {
-      complain(text + " is no function of " + letter_of(*argument));
+      complain(text + " is not a function of " + letter_of(*argument));
       return;
     }
     if (block_.rows.empty()) return;

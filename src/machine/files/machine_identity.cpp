@@ -41,11 +41,11 @@ void check_kinematics(TomlTable& table, const std::vector<std::string>& said,
       "with this machine file";
   if (said.empty()) {
     table.complain("kinematics",
-                   "is needed: leave out the whole table [machine] to give errors of "
-                   "a machine that is not said");
+                   "is needed: leave out the whole table [machine] to give errors for any machine");
   } else if (said.size() != here.size()) {
-    table.complain("kinematics", fmt::format("is of the machine \"{}\", and this one is \"{}\": {}",
-                                             said.front(), here.front(), what_to_do));
+    table.complain("kinematics",
+                   fmt::format("belongs to the machine \"{}\", and this one is \"{}\": {}",
+                               said.front(), here.front(), what_to_do));
   } else {
     for (std::size_t i = 0; i < here.size(); ++i)
       if (said[i] != here[i]) {
@@ -80,8 +80,9 @@ std::vector<std::string> kinematics_of(const Machine& machine) {
 std::string machine_identity_toml(const Machine& machine) {
   std::vector<std::string> lines;
   for (const std::string& line : kinematics_of(machine)) lines.push_back("  " + quoted(line));
-  return fmt::format("\n[machine] # that the errors are of\nname = {}\nkinematics = [\n{},\n]\n",
-                     quoted(machine.name), fmt::join(lines, ",\n"));
+  return fmt::format(
+      "\n[machine] # the machine with these errors\nname = {}\nkinematics = [\n{},\n]\n",
+      quoted(machine.name), fmt::join(lines, ",\n"));
 }
 
 void check_machine_identity(TomlTable& root, const Machine& machine) {
@@ -103,8 +104,8 @@ std::string machine_not_said(const std::string& path, const ErrorModel& errors,
   if (!of_machine) return "";
   if (is_errors_toml(path) && TomlDocument(path).root().has("machine")) return "";
   return fmt::format(
-      "{} does not say of which machine its errors are: they are taken as those of {}. trueaxis "
-      "errors writes them with the table [machine], which says it",
+      "{} does not name the machine of its errors: TrueAxis uses them for {}. trueaxis errors "
+      "writes them with the table [machine], which names it",
       std::filesystem::path(path).filename().string(),
       machine.name.empty() ? "this one" : machine.name);
 }

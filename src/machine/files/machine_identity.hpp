@@ -17,7 +17,8 @@ std::vector<std::string> kinematics_of(const Machine& machine);
 /// The table [machine] of an errors file.
 std::string machine_identity_toml(const Machine& machine);
 
-/// Complains where a table [machine] is of another machine; without one nothing is held against it.
+/// Complains where a table [machine] is of another machine; without one nothing is fixed against
+/// it.
 void check_machine_identity(TomlTable& root, const Machine& machine);
 
 /// What is to be said of a file of `errors` without that table (ISG and Etalon files have no place

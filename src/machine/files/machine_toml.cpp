@@ -28,7 +28,7 @@ void read_axis(TomlTable table, MachineAxis& axis) {
   if (is_rotary(axis.name))
     axis.point_mm = read_vector(table, "point_mm");
   else if (table.has("point_mm"))
-    table.complain("point_mm", "has no meaning for a linear axis: take it out");
+    table.complain("point_mm", "has no meaning for a linear axis: remove it");
   read_limits(table, axis);
 }
 
@@ -40,7 +40,7 @@ void read_axes(TomlTable& root, Machine& machine) {
     const auto axis = std::ranges::find_if(
         machine.axes, [&](const MachineAxis& one) { return name && one.name == *name; });
     if (axis == machine.axes.end())
-      tables->complain(key, "is no axis of the chain \"" + machine.chain + '"');
+      tables->complain(key, "is not an axis of the chain \"" + machine.chain + '"');
     auto table = tables->maybe_table(key);
     if (table && axis != machine.axes.end()) read_axis(*table, *axis);
     if (table && axis == machine.axes.end()) table->ignore_rest();

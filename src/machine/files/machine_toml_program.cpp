@@ -10,7 +10,7 @@ namespace {
 
 using AxisValues = std::array<std::optional<double>, axis_count>;
 
-const char* const no_such_axis = "is of an axis that the chain has not: take it out";
+const char* const no_such_axis = "refers to an axis the chain does not have: remove it";
 
 /// `{X = 1.5, C = 30}`: mm and degrees by letter.
 void read_by_letter(TomlTable table, const Machine& machine, AxisValues& values) {
@@ -35,7 +35,7 @@ std::string read_words(std::string_view text, const Machine& machine, AxisValues
     text.remove_prefix(1);
     const auto value = take_number<double>(text);
     if (!axis || machine.find(*axis) == nullptr || !value || !std::isfinite(*value))
-      return "is no list of words of this machine's axes, such as \"X0 Y0 Z100\" (character " +
+      return "is not a list of words of this machine's axes, such as \"X0 Y0 Z100\" (character " +
              std::to_string(at + 1) + ')';
     values[index_of(*axis)] = *value * edge_unit(*axis);
   }
@@ -55,7 +55,7 @@ void read_tools(TomlTable tools, Machine& machine) {
   for (const std::string& key : tools.keys()) {
     const int number = whole_number<int>(key).value_or(-1);
     auto tool = tools.maybe_table(key);
-    if (number < 0) tools.complain(key, "is no number of a tool: write [tools.3] for T3");
+    if (number < 0) tools.complain(key, "is not a tool number: write [tools.3] for T3");
     if (tool) machine.tool_lengths_mm[number] = tool->required_number("length_mm");
   }
 }
@@ -92,7 +92,7 @@ void read_program_parts(TomlTable& root, Machine& machine, bool mode_needed) {
     read_start(*program, machine);
   } else if (mode_needed) {
     root.complain("program",
-                  "is missing: say in program.mode whether the words are \"axes\" (positions of "
+                  "is missing: state in program.mode whether the words are \"axes\" (positions of "
                   "the axes) or \"tip\" (X Y Z of the tip in the program frame)");
   }
   if (auto compensation = root.maybe_table("compensation"))

@@ -38,7 +38,7 @@ NumberTable number_table(std::string_view content, const std::string& path,
       if (parse_number(field, value))
         row.values.push_back(value);
       else
-        wrong.push_back({path, number, 0, '"' + std::string(field) + "\" is no finite number"});
+        wrong.push_back({path, number, 0, '"' + std::string(field) + "\" is not a finite number"});
     }
     if (row.values.size() == table.header.size()) table.rows.push_back(std::move(row));
   });

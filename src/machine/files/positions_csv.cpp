@@ -31,14 +31,14 @@ std::vector<Column> axis_columns(const NumberTable& table, const Machine& machin
     const auto [name, unit] = name_with_unit(text);
     const auto axis = axis_of(name);
     if (!axis || machine.find(*axis) == nullptr) {
-      complain('"' + text + "\" is no axis of the machine");
+      complain('"' + text + "\" is not an axis of the machine");
       columns.push_back({});
       continue;
     }
     const auto known =
         find_unit(is_rotary(*axis) ? UnitKind::angle : UnitKind::length, unit.value_or(""));
     if (!known) complain('"' + text + "\" needs its unit: write " + usual(*machine.find(*axis)));
-    if (there[index_of(*axis)]) complain('"' + text + "\" is there twice");
+    if (there[index_of(*axis)]) complain('"' + text + "\" is given twice");
     there[index_of(*axis)] = true;
     columns.push_back({index_of(*axis), known ? known->factor : 1.0});
   }
@@ -87,7 +87,8 @@ std::vector<ToolTarget> read_tool_targets_csv(const std::string& path) {
     const bool unit_known = !unit || (known < 3 && unit == "mm");
     if (name == "twist") continue;
     if (known == 6 || !unit_known || at[known] != table.header.size())
-      complain(table.header_line, '"' + table.header[i] + "\" is none of x,y,z,i,j,k (mm), once");
+      complain(table.header_line,
+               '"' + table.header[i] + "\" must be one of x,y,z,i,j,k (mm), each once");
     else
       at[known] = i;
   }

@@ -174,8 +174,8 @@ std::string misspelt(std::span<const Word> words) {
       if (!looks_like(known, bare, words[n], words.subspan(n + 1))) continue;
       const std::string_view written = words[n].written;
       const std::string wrong = written == known.key
-                                    ? csv_quoted(written) + " has no ':' behind it: write "
-                                    : csv_quoted(written) + " is no key, did you mean " +
+                                    ? csv_quoted(written) + " needs ':' after it: write "
+                                    : csv_quoted(written) + " is not a key, did you mean " +
                                           csv_quoted(known.key) + "? Write ";
       return wrong + quoted_line(known) + ", or '##' before free text";
     }
@@ -191,7 +191,7 @@ bool says_unit(const std::string& word) {
 }
 
 constexpr const char* unit_place =
-    " is not read from a comment: the unit of a column stands in the header, as in X_M[in],C[deg]";
+    " is not read from a comment: the unit of a column belongs in the header, as in X_M[in],C[deg]";
 constexpr const char* convention_place =
     " is not read from a comment: write '# x_convention: radius' or '# x_convention: diameter' "
     "(or X_M[mm dia]); of a gauge '# nominal_radius: 14.5 mm'";

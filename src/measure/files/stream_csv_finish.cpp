@@ -108,7 +108,7 @@ void refuse_mistaken_unit(const CsvHeader& header, const ProbeStream& stream,
     if (std::abs(rpm / said_rpm / factor - 1.0) > alike) continue;
     diagnostics.add(
         header.line, header.find(column)->character,
-        fmt::format("C and t give {:.4g} turns a minute, where spindle_rpm says {:.4g}: "
+        fmt::format("C and t give {:.4g} turns per minute, but spindle_rpm states {:.4g}: "
                     "{}, or correct spindle_rpm",
                     rpm, said_rpm, advice));
     return;
@@ -129,8 +129,8 @@ void refuse_mistaken_sense(const CsvHeader& header, const ProbeStream& stream,
   if (with_rad > 0.0 || against_rad < two_pi) return;
   diagnostics.add(
       header.line, header.find(CsvRole::angle)->character,
-      fmt::format("C {} all through, and spindle_rpm {:.4g} says that it {}: the axis "
-                  "would be mirrored if C has the wrong sign. Correct C, or write "
+      fmt::format("C {} all through, but by spindle_rpm {:.4g} it {}: the axis would be mirrored "
+                  "if C has the wrong sign. Correct C, or write "
                   "'# spindle_rpm: {:.4g}'",
                   sense > 0.0 ? "falls" : "grows", sense, sense > 0.0 ? "grows" : "falls", -sense));
 }
@@ -170,10 +170,10 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
     const bool exchanged = *most - *least > 0.25 * turn && *least > -turn && *most < 1.01 * turn;
     diagnostics.add(header.line, angle.character,
                     exchanged ? fmt::format("C never moves, and the readings run from {:.6g} to "
-                                            "{:.6g}: are these two columns exchanged?",
+                                            "{:.6g}: check whether these two columns are exchanged",
                                             *least, *most)
-                              : "C never moves: a stationary capture alone locates nothing, add "
-                                "readings around the part");
+                              : "C never moves: a capture at standstill alone does not locate the "
+                                "axis: add readings around the part");
     return;
   }
   const double half = stream.x_convention->diameter ? 0.5 : 1.0;

@@ -129,7 +129,7 @@ void check_sensors(CsvHeader& header, CsvDiagnostics& diagnostics) {
       column.role = CsvRole::unknown;
     };
     if (sensors > 0 && (column.name == "X_M" || column.name == "Z_M"))
-      refuse(column.name + " beside X_M1: number all sensors of a recording X_M1, X_M2 …" +
+      refuse(column.name + " together with X_M1: number all sensors of a recording X_M1, X_M2 …" +
              (column.name == "Z_M" ? ", and give an axial sensor a stream of its own" : ""));
     if (column.sensor == 0 || column.role == CsvRole::unknown) continue;
     if (first == nullptr) first = &column;
@@ -137,7 +137,8 @@ void check_sensors(CsvHeader& header, CsvDiagnostics& diagnostics) {
       refuse(column.name + " is one of " + std::to_string(sensors) +
              " sensors: number them X_M1 to X_M" + std::to_string(sensors));
     } else if (column.unit.factor != first->unit.factor || column.diameter != first->diameter) {
-      refuse(column.name + " has another unit than " + first->name + ": give all sensors one unit");
+      refuse(column.name + " has another unit than " + first->name +
+             ": use one unit for all sensors");
     }
   }
 }

@@ -41,7 +41,7 @@ std::string CsvInvalidRows::left_out(const std::function<std::size_t(std::size_t
   std::vector<std::size_t> lines = lines_;
   if (line_of) std::ranges::transform(lines, lines.begin(), line_of);
   const std::string what = word_list(std::span(what_).first(std::min(most, what_.size())));
-  return fmt::format("{} left out (--drop-invalid), in line{} {}: {}{}",
+  return fmt::format("{} excluded (--drop-invalid), in line{} {}: {}{}",
                      counted(lines.size(), "row is", "rows are"), lines.size() == 1 ? "" : "s",
                      ranges_text(lines), what, what_.size() > most ? " …" : "");
 }
@@ -60,14 +60,14 @@ std::string CsvInvalidRows::remedy(const std::string& file, const StreamReadOpti
     line.push_back((file == "-" ? "my" : std::filesystem::path(file).stem().string()) +
                    "_clean.csv");
   }
-  return fmt::format("{} no value: the command that leaves {} out: {}",
+  return fmt::format("{} no value: the command that excludes {}: {}",
                      counted(count(), "row has", "rows have"), count() == 1 ? "it" : "them",
                      shell_line(line));
 }
 
 std::string csv_too_many_invalid(std::size_t invalid, std::size_t good) {
   if (invalid < good) return "";
-  return fmt::format("{} no value and {}: too many to leave them out, look for the reason",
+  return fmt::format("{} no value and {}: too many to exclude them; look for the reason",
                      counted(invalid, "row has", "rows have"),
                      counted(good, "other has one", "others have one"));
 }

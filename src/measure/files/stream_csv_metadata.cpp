@@ -89,7 +89,7 @@ std::string csv_take_setup(std::string_view key, std::string_view value,
   const auto parsed = parse_key(key);
   if (!parsed)
     return "unknown key " + csv_quoted(key) +
-           ": write the number of the set-up behind setup, such as setup.2.reindex";
+           ": write the number of the set-up after setup, such as setup.2.reindex";
   const auto not_understood = [&](const char* wanted) {
     return std::string(key) + ": " + csv_quoted(value) + " is not understood: write " + wanted;
   };
@@ -182,10 +182,9 @@ void CsvMetadataReader::comment_behind(std::string_view line, std::size_t hash,
   if (colon == std::string_view::npos || !is_known(lower_case(written))) {
     refuse_trouble(line, hash, line_number);
   } else {
-    diagnostics_.add(line_number, csv_character(line, hash),
-                     csv_quoted(written) +
-                         " stands behind a row, where it is not read: give it a "
-                         "line of its own");
+    diagnostics_.add(
+        line_number, csv_character(line, hash),
+        csv_quoted(written) + " is after a row, where it is not read: put it on a line of its own");
   }
 }
 

@@ -24,18 +24,19 @@ std::string csv_sensor_angles_trouble(std::span<const double> angles_deg) {
   double largest_deg = 0.0;
   for (std::size_t i = 0; i < angles_deg.size(); ++i) {
     if (!std::isfinite(angles_deg[i]))
-      return fmt::format("the angle of sensor {} is no number", i + 1);
+      return fmt::format("the angle of sensor {} is not a number", i + 1);
     largest_deg = std::max(largest_deg, std::abs(angles_deg[i]));
     for (std::size_t j = 0; j < i; ++j) {
       if (apart_rad(angles_deg[i] * rad_per_deg, angles_deg[j] * rad_per_deg) < 0.1 * rad_per_deg)
         return fmt::format(
-            "sensors {} and {} stand at one angle, {:g} deg: two sensors need two angles", j + 1,
+            "sensors {} and {} have the same angle, {:g} deg: two sensors need two angles", j + 1,
             i + 1, angles_deg[i]);
     }
   }
   if (angles_deg.size() > 1 && largest_deg <= two_pi)
     return fmt::format(
-        "the sensors stand within {:g} deg, which looks like radians: give their angles in degrees",
+        "the angles of the sensors span {:g} deg, which looks like radians: give their angles in "
+        "degrees",
         largest_deg);
   return "";
 }
@@ -87,8 +88,8 @@ void csv_finish_sensors(const CsvHeader& header, const CsvKnownMetadata& known,
   }
   if (!options.several_sensors) {
     diagnostics.add(header.line, column,
-                    fmt::format("X_M1 to X_M{} are {} sensors of one recording, which `trueaxis "
-                                "spindle` takes: for this command keep one at +X and name it X_M",
+                    fmt::format("X_M1 to X_M{} are {} sensors of one recording, for `trueaxis "
+                                "spindle`: for this command keep the one at +X and name it X_M",
                                 sensors, sensors));
     return;
   }
@@ -97,10 +98,11 @@ void csv_finish_sensors(const CsvHeader& header, const CsvKnownMetadata& known,
   const std::size_t line = said ? place.line : header.line;
   const std::size_t at = said ? place.column : column;
   if (angles.empty()) {
-    diagnostics.add(line, at,
-                    fmt::format("where do the {} sensors stand? Write '# sensor_angles: 0, 99, 202 "
-                                "deg' or give the angles to the command",
-                                sensors));
+    diagnostics.add(
+        line, at,
+        fmt::format("the angles of the {} sensors are missing: write '# sensor_angles: 0, 99, 202 "
+                    "deg' or give the angles to the command",
+                    sensors));
   } else if (angles.size() != sensors) {
     diagnostics.add(line, at,
                     fmt::format("{} angles for {} sensors: give every column X_M1 to X_M{} one",
@@ -109,7 +111,7 @@ void csv_finish_sensors(const CsvHeader& header, const CsvKnownMetadata& known,
              !std::ranges::equal(angles, options.sensor_angles_rad,
                                  [](double a, double b) { return apart_rad(a, b) < 1e-6; })) {
     diagnostics.add(line, at,
-                    "sensor_angles are other ones in the file than for the caller: correct one");
+                    "sensor_angles in the file differ from those of the caller: correct one");
   }
 }
 

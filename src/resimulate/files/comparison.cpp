@@ -53,17 +53,17 @@ std::string resimulation_line(const Resimulation& again) {
                                 : "noise alone could make all of it";
   return layout::wrapped(
       "simulated   ",
-      fmt::format("measured − simulated {:.3g} → {:.3g} µm RMS; of the variance {:.3g} % is left, ",
+      fmt::format("measured − simulated {:.3g} → {:.3g} µm RMS; {:.3g} % of the variance remains, ",
                   c.before.rms_mm / mm_per_um, c.after.rms_mm / mm_per_um, 100.0 * c.after.share) +
           alone);
 }
 
 std::string comparison_text(const Comparison& comparison) {
   std::string text = fmt::format("measured against simulated, {} readings", comparison.readings);
-  if (comparison.masked > 0) text += fmt::format(" ({} left out)", comparison.masked);
+  if (comparison.masked > 0) text += fmt::format(" ({} excluded)", comparison.masked);
   text += "\n  measured − simulated          RMS              share of variance\n";
-  text += row("before (ideal surface)", comparison.before);
-  text += row("after (extended model)", comparison.after);
+  text += row("before (ideal fit)", comparison.before);
+  text += row("after (final fit)", comparison.after);
   text += row("noise alone", comparison.noise);
   if (comparison.lines.empty()) return text;
   text += "  largest lines, order          before           after\n";

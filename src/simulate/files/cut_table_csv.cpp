@@ -76,12 +76,12 @@ virtual_lathe::CutTable parse_cut_table(std::string_view content, const std::str
       table.face = line == face_header;
       if (!table.face && line != lateral_header)
         complain(number, 1,
-                 fmt::format("is no header of a correction table: write {} or {}", lateral_header,
-                             face_header));
+                 fmt::format("is not a header of a correction table: write {} or {}",
+                             lateral_header, face_header));
     } else if (const Row row = parse_row(line); row.wrong_column != 0) {
-      complain(number, row.wrong_column, "is no number, or the row has not five columns");
+      complain(number, row.wrong_column, "is not a number, or the row does not have five columns");
     } else if (std::floor(row.values[0]) != row.values[0] || std::abs(row.values[0]) > 1e9) {
-      complain(number, 1, "is no number of a revolution: write 0, 1, 2");
+      complain(number, 1, "is not a number of a revolution: write 0, 1, 2");
     } else {
       append(row, sense, table);
     }

@@ -185,9 +185,9 @@ std::vector<std::size_t> nominal_moves_of(const Machine& machine, const ErrorMod
                               ? moves.size()
                               : Pairing(machine, errors, moves, nominal).pair(out);
   if (met != nominal.size())
-    throw InputError(file, "is no other form of the nominal program: of its " +
-                               std::to_string(nominal.size()) + " moves " + std::to_string(met) +
-                               " are met");
+    throw InputError(file, "is not another form of the nominal program: it matches only " +
+                               std::to_string(met) + " of its " + std::to_string(nominal.size()) +
+                               " moves");
   return out;
 }
 

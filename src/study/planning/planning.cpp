@@ -58,7 +58,7 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
     const double rate = pass.readings_per_revolution * std::abs(pass.speed_rpm) / 60.0;
     if (rate <= *task.rate_hz || find(task.variables, Choice::readings_per_revolution)) continue;
     remarks.push_back(
-        fmt::format("the plan asks for {:.4g} readings a second, more than the {:g}: fewer a "
+        fmt::format("the plan needs {:.4g} readings per second, more than the {:g}: use fewer per "
                     "revolution, or a slower spindle",
                     rate, *task.rate_hz));
     break;
@@ -246,7 +246,8 @@ bool look_for_nearest(const PlanningTask& task, const PlanSearch& search, Planni
   if (better_probe) {
     out.nearest = smallest_u(task, search, true);
     out.remarks.emplace_back(
-        "within the ranges the probe of the scenario does not do: the best of its range is taken");
+        "the scenario's probe is not good enough within the ranges: the plan uses the best of its "
+        "range");
   } else {
     search.skip(lengths_looked_at(task));
   }
@@ -300,9 +301,8 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   if (find(task.variables, Choice::readings_per_revolution) &&
       (noise.rho != 0.0 || !noise.autoregression.empty())) {
     out.remarks.emplace_back(
-        "the noise is correlated from reading to reading, at any rate alike: where it lasts a "
-        "time, "
-        "the correlation is greater the more readings a second");
+        "the noise is correlated from reading to reading, at any rate alike: if it persists in "
+        "time, the correlation grows with the rate of readings");
   }
   for (const Choice choice : choices) {
     if (!find(task.variables, choice)) continue;

@@ -46,7 +46,7 @@ def judge(truth, unseen, out, code):
             worst, words = off / U, f"off {off:.3g} µm, U {U:.3g}"
     if worst <= 1.5:
         return "right", words
-    if re.search("^note .*angles, the same in every revolution", out, re.M):
+    if re.search("^note .*angles repeat in every revolution", out, re.M):
         return "unseen", words
     if unseen and re.search("^unseen .*" + re.escape(unseen.replace(".", " ")), out, re.M):
         return "unseen", words

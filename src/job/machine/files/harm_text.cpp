@@ -45,7 +45,7 @@ std::string harm_screen(const ProgramHarm& harm) {
                         one.found ? "" : " if it hides");
   }
   if (!text.empty()) text = "part   on " + harm.file + " the tip is off by " + text + "\n";
-  text += fmt::format("U      of the tip {} (k = {:.3g}), without where the part stands",
+  text += fmt::format("U      of the tip {} (k = {:.3g}), without the place of the part",
                       layout::um(harm.U.value), harm.coverage_factor);
   for (const PlanOnProgram& one : harm.plans)
     text += fmt::format("{}{} {}", &one == &harm.plans.front() ? "; after " : ", ", one.plan,

@@ -84,12 +84,12 @@ void read_part(TomlTable table, MachineJob& job) {
   job.tolerance_mm = tolerance_mm;
   if (!job.program)
     return table.complain("tolerance_mm",
-                          "is of no use without a [program]: add it, or remove [part]");
+                          "has no effect without a [program]: add it, or remove [part]");
   const auto& pieces_mm = job.program->options.tolerance_mm;
   if (pieces_mm && *pieces_mm >= tolerance_mm)
     table.complain("tolerance_mm",
-                   "is no larger than that of [program], to which blocks are cut in pieces: make "
-                   "[program] tolerance_um smaller, as uncertainty takes its share as well");
+                   "is not larger than that of [program], by which blocks are split: make "
+                   "[program] tolerance_um smaller, because uncertainty needs a share as well");
 }
 
 /// What `read` gives; what is wrong goes to the other diagnostics of the job.
@@ -126,7 +126,7 @@ void read_program_file(TomlDocument& document, MachineJob& job) {
                             axes.read_options(program.options.arc_tolerance_mm));
   });
   if (read && read->moves.empty())
-    document.add({program.file, 0, 0, "moves nowhere: name the program that cuts the part"});
+    document.add({program.file, 0, 0, "does not move: name the program that cuts the part"});
 }
 
 void read_files(TomlDocument& document, const Said& said, MachineJob& job) {
@@ -171,7 +171,8 @@ MachineJob read_machine_job_toml(std::string_view content, const std::string& pa
   if (auto part = root.maybe_table("part")) read_part(*part, job);
   for (const char* key : {"reference", "target", "sensor", "cut", "actuator", "correction"})
     if (root.has(key))
-      root.complain(key, "is of a lathe's job, and [machine] of a machine's: make two jobs of it");
+      root.complain(key,
+                    "belongs to a lathe's job, and [machine] to a machine's job: write two jobs");
   read_files(document, said, job);
   document.finish();
   return job;

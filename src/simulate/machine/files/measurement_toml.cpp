@@ -58,7 +58,7 @@ void read_axis(TomlTable& table, const Machine& machine, MeasurementPlan& plan) 
   if (axis) plan.axis = *axis;
   if (!axis && !word.empty())
     table.complain("axis",
-                   "is no axis of the machine " + machine.chain + ": name one of its letters");
+                   "is not an axis of the machine " + machine.chain + ": name one of its letters");
 }
 
 /// Balls `spacing_mm` apart along a straight bar that begins at the first.

@@ -14,7 +14,7 @@ double number_of(std::string_view text, std::string_view whole) {
   std::string_view left = text;
   const auto value = take_number<double>(left);
   if (!value || !left.empty())
-    throw InputError(std::string(whole), "\"" + std::string(text) + "\" is no number");
+    throw InputError(std::string(whole), "\"" + std::string(text) + "\" is not a number");
   return *value;
 }
 

@@ -78,12 +78,13 @@ std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
                                                      : "at the goal";
   const bool above = confirmed.interval_95_mm.low > goal_mm;
   if (confirmed.at_bound)
-    text += above ? ", yet the bound is still within chance" : ", as the bound says";
+    text += above ? ", but the difference from the bound is within random scatter"
+                  : ", as the bound says";
   if (confirmed.failures > 0) text += format(", {} failed", confirmed.failures);
   if (confirmed.states_more)
     text += format(
-        "\n    the U that the fits state is {} times the goal: they take for noise what "
-        "the bound takes as known, as effects and correlation",
+        "\n    the U that the fits state is {} times the goal: they treat as noise what the bound "
+        "treats as known, such as effects and correlation",
         digits(3, confirmed.stated_mm / goal_mm));
   return text + '\n';
 }
@@ -102,7 +103,7 @@ std::string not_reached_text(const PlanningTask& task, const PlanningAnswer& ans
   }
   if (beyond.empty() && std::isfinite(plan.u_expanded_mm))
     text += ", " + digits(3, plan.u_expanded_mm / task.goal_mm) + " times the goal";
-  if (task.variables.empty()) text += "; what may be chosen is told with --free";
+  if (task.variables.empty()) text += "; choose what may vary with --free";
   return text + "\n  " + head + "  " + row_text(plan) + beyond + '\n';
 }
 
@@ -126,12 +127,12 @@ std::string not_confirmed_text(const PlanningTask& task, const PlanningAnswer& a
   }
   // More readings a revolution would only correlate: more turns do not.
   const double ratio = best->confirmed.stated_mm / task.goal_mm, times = ratio * ratio;
-  return begin + format(
-                     " of {} µm, but the U that the fits state does not: {} µm, {} times the goal; "
-                     "about {} times the turns (a feed of {} mm) would state it, or take away what "
-                     "the fits take for noise\n",
-                     um(task.goal_mm), um(best->confirmed.stated_mm), digits(3, ratio),
-                     digits(2, times), digits(2, best->plan.of(Choice::feed) / times));
+  return begin +
+         format(
+             " of {} µm, but the U that the fits state does not: {} µm, {} times the goal; use "
+             "about {} times the turns (a feed of {} mm), or remove what the fits treat as noise\n",
+             um(task.goal_mm), um(best->confirmed.stated_mm), digits(3, ratio), digits(2, times),
+             digits(2, best->plan.of(Choice::feed) / times));
 }
 
 /// The list of plans under a headline.

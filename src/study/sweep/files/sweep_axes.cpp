@@ -161,7 +161,7 @@ std::vector<Setting> SweepAxes::read_set_before_axes(TomlTable set) const {
     // A pass' end is the way of a travel that an axis sets.
     if (axis == nullptr || (is_travel(axis->path) && !is_travel(setting.path))) continue;
     set.complain("set", "writes " + setting.path + ", which the axis of \"" + axis->key +
-                            "\" sets afterwards: take it out");
+                            "\" sets afterwards: remove it");
   }
   return settings;
 }

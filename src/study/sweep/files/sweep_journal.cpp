@@ -169,7 +169,7 @@ BlockResult decode(std::string_view bytes) {
   try {
     return nlohmann::json::from_cbor(bytes);
   } catch (const nlohmann::json::exception&) {
-    throw InputError("block", "is no result of a block");
+    throw InputError("block", "is not a result of a block");
   }
 }
 

@@ -131,9 +131,8 @@ std::string sweep_text(const Sweep& sweep, const Summary& summary) {
   const auto off =
       std::ranges::count_if(summary.rows, [](const Row& row) { return row.at_bound == false; });
   if (tested > 0) {
-    text +=
-        format("\n{} of {} ratios are at the bound (! are not; chance says so of any at {:g} %)\n",
-               tested - off, tested, 100.0 * bonferroni_level);
+    text += format("\n{} of {} ratios are at the bound (! are not; false alarm rate {:g} %)\n",
+                   tested - off, tested, 100.0 * bonferroni_level);
   }
   return text;
 }

@@ -85,7 +85,7 @@ void check_cut(TomlDocument& document, const std::string& path, const Sweep& swe
   const virtual_lathe::CutProgram& cut = *sweep.base.cut;
   const auto complain = [&](const char* what) { document.add({path, 0, 0, what}); };
   if (!cut.table.empty())
-    complain("[cut] table: a sweep makes the table of every repeat itself: take `table` out");
+    complain("[cut] table: a sweep makes the table of every repeat itself: remove `table`");
   if (cut.target.kind == virtual_lathe::CutKind::face)
     complain("[cut.target] kind: a sweep cuts a cylinder or a cone");
   if (sweep.base.part.kind == virtual_lathe::PartKind::face || !sweep.surface.empty())
