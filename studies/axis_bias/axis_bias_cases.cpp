@@ -141,7 +141,7 @@ std::vector<AxisBiasCase> face_cases(const Where& at) {
       mm("part.seat_slip", "along Z, half-way", {.onset_s = half_way}, {0}),
       angle(mm("part.seat_slip", "tilt, half-way", {.onset_s = half_way}, {1, 2}), small_slope_rad),
       mm("spindle.axial_fundamental", ""),
-      mm("spindle.axial_asynchronous", "0.43 per turn", {.order = 0.43}),
+      mm("spindle.axial_asynchronous", "0.43 per revolution", {.order = 0.43}),
       angle(mm("spindle.face_tilt", "2 UPR", {.order = 2}, {0, 1}), small_slope_rad),
       angle(mm("slide.xz_squareness", ""), small_slope_rad),
       mm("slide.x_straightness", "P2", {.degree = 2}, {1})};
@@ -157,7 +157,7 @@ std::vector<AxisBiasCase> machine_cases(const Where& at) {
                    {.order = 2, .lever_from_mm = bearing_mm}, {0, 1}),
                 small_slope_rad),
           mm("spindle.axial_synchronous", "2 UPR", {.order = 2}),
-          mm("spindle.asynchronous", "0.43 per turn", {.order = 0.43}),
+          mm("spindle.asynchronous", "0.43 per revolution", {.order = 0.43}),
           mm("slide.z_straightness", "P2", {.degree = 2}),
           angle(mm("slide.xz_parallelism", ""), small_slope_rad),
           mm("slide.leadscrew_periodic", "7.3 periods", {.period_mm = at.length_mm() / 7.3}),

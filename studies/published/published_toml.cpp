@@ -97,7 +97,7 @@ PublishedRow read_row(TomlTable table, const Sweep& sweep, std::size_t parameter
     table.complain("values", "must give as many texts as there are parameters, as printed");
   for (const std::string& text : values) {
     const std::optional<PrintedNumber> number = printed(text);
-    if (!number) table.complain("values", "has \"" + text + "\", which is no decimal number");
+    if (!number) table.complain("values", "has \"" + text + "\", which is not a decimal number");
     row.values.push_back(number.value_or(PrintedNumber{}));
   }
   return row;

@@ -115,7 +115,7 @@ noise_factor = 0
 )");
   for (const char* part_of :
        {"names \"radius\": the part has x0, y0, l, m, k, half_angle", "names \"k\" twice",
-        "pass.length_mm = \"15\": the axis has 10, 20", "\"4e2\", which is no decimal number",
+        "pass.length_mm = \"15\": the axis has 10, 20", "\"4e2\", which is not a decimal number",
         "only one noise level can be unknown", "as many texts as there are parameters",
         "must give 2 texts, one value of every axis", "noise.rhoo", "half_angel", "noise_factor"})
     EXPECT_NE(said.find(part_of), std::string::npos) << part_of << "\nsaid: " << said;
