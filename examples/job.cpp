@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole job from arrays: a seat is probed, and a shoulder beside it is to be cut true to it.
+// The whole job from arrays: a seat is probed, and a shoulder next to it is to be cut true to it.
 #include <cstdio>
 #include <trueaxis/trueaxis.hpp>
 

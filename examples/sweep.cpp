@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Before measuring: how well will the axis be known, over the number of readings a turn? Bias and
-// spread of 500 repeats beside the Cramér-Rao bound.
+// spread of 500 repeats next to the Cramér-Rao bound.
 #include <cmath>
 #include <cstdio>
 #include <trueaxis/trueaxis.hpp>
