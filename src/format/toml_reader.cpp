@@ -170,8 +170,7 @@ std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size
         row.push_back(i < without_unit ? value : value * found.factor);
     }
     if (array == nullptr || array->size() != width || row.size() != width)
-      state_->wrong({found.key, 1.0, &node},
-                    "holds something that is not such a row: give " + give);
+      state_->wrong({found.key, 1.0, &node}, "has an entry that is not a row: give " + give);
     else
       rows.push_back(std::move(row));
   }
