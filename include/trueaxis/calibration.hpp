@@ -83,7 +83,10 @@ struct AxisReadOut {
   };
   std::vector<Order> orders;         ///< of the period, those that were found
   std::vector<Estimate> polynomial;  ///< Legendre coefficients over the range, degree 0 first
-  double low = 0.0, high = 0.0;      ///< range of the commanded positions
+  /// Reversal value (ISO 230-2): error after a positive approach less that after a negative one, mm
+  /// or rad. None: the positions were not approached from both sides.
+  std::optional<Estimate> reversal;
+  double low = 0.0, high = 0.0;  ///< range of the commanded positions
   double rms_before = 0.0, rms_after = 0.0;
   double noise = 0.0;  ///< σ of a reading as the residuals show it, mm or rad
 };

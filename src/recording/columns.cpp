@@ -18,17 +18,6 @@ std::string described(const Recording& recording, std::size_t column) {
   return fmt::format("column {}{}", column + 1, whole.empty() ? "" : " (" + whole + ")");
 }
 
-/// The column that a name of the header or a number means.
-std::optional<std::size_t> find_column(const Recording& recording, const std::string& name) {
-  for (std::size_t k = 0; k < recording.columns.size(); ++k)
-    if (recording.columns[k].whole == name) return k;
-  for (std::size_t k = 0; k < recording.columns.size(); ++k)
-    if (!name.empty() && recording.columns[k].name == name) return k;
-  const auto number = whole_number<std::size_t>(name).value_or(0);
-  return number > 0 && number <= recording.columns.size() ? std::optional(number - 1)
-                                                          : std::nullopt;
-}
-
 /// The language that the header is in, where a name is of one alone: "Winkel", "Durchmesser".
 std::string language_of(const Recording& recording) {
   for (const RecordedColumn& column : recording.columns)
@@ -147,6 +136,16 @@ std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::s
 }
 
 }  // namespace
+
+std::optional<std::size_t> find_column(const Recording& recording, const std::string& name) {
+  for (std::size_t k = 0; k < recording.columns.size(); ++k)
+    if (recording.columns[k].whole == name) return k;
+  for (std::size_t k = 0; k < recording.columns.size(); ++k)
+    if (!name.empty() && recording.columns[k].name == name) return k;
+  const auto number = whole_number<std::size_t>(name).value_or(0);
+  return number > 0 && number <= recording.columns.size() ? std::optional(number - 1)
+                                                          : std::nullopt;
+}
 
 bool is_probe_log(const Recording& recording) {
   if (recording.columns.size() != 9 || recording.rows() == 0 || recording.of_numbers) return false;

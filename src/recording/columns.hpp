@@ -42,6 +42,9 @@ ColumnsSaid read_columns_said(const std::string& text);
 std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsSaid& said,
                                       std::vector<std::string>& unclear);
 
+/// The column that a name of the header or a number means.
+std::optional<std::size_t> find_column(const Recording& recording, const std::string& name);
+
 /// LinuxCNC's (PROBEOPEN): nine numbers X Y Z A B C U V W of six decimals, no names; X is a radius.
 bool is_probe_log(const Recording& recording);
 

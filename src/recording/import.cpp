@@ -24,35 +24,6 @@
 namespace trueaxis {
 namespace {
 
-Recording recognise(const RecordedText& text, const std::string& path, std::size_t skip,
-                    std::optional<char> decimal) {
-  for (const auto read : {&read_twincat_scope, &read_camonitor, &read_words}) {
-    Recording recording;
-    if (skip == 0 && !decimal && read(text, recording)) return recording;
-  }
-  Recording recording;
-  if (read_table(text, skip, decimal, recording)) return recording;
-  const char* said = !decimal          ? ""
-                     : *decimal == ',' ? " with decimal commas"
-                                       : " with decimal points";
-  throw InputError(path, std::string("holds no table of numbers") + said +
-                             ": two rows of two numbers are the least");
-}
-
-/// "1 Nr., 2 Angle(°), 3 X": what there is to choose from; of a column without a name its number.
-std::string listed(const Recording& recording) {
-  std::string text;
-  for (std::size_t k = 0; k < recording.columns.size(); ++k) {
-    const std::string& whole = recording.columns[k].whole;
-    text += (k == 0 ? "" : ", ") + std::to_string(k + 1) + " " +
-            (whole.empty() ? csv_quoted(recording.of_numbers ? recording.written(0, k)
-                                                             : recording.cell(0, k)) +
-                                 " …"
-                           : whole);
-  }
-  return text;
-}
-
 /// What is not clear: in sentences, and what the command that would read the file must say for it.
 struct Unclear {
   std::vector<std::string> why;
@@ -115,7 +86,7 @@ std::string lines_suggested(const Recording& recording, const RecordingOptions& 
   std::vector<Diagnostic> diagnostics;
   const auto say = [&](std::string what) { diagnostics.push_back({path, 0, 0, std::move(what)}); };
   for (const std::string& why : unclear.why) say(why);
-  say("was read as " + recording.producer + " with the columns " + listed(recording));
+  say("was read as " + recording.producer + " with the columns " + columns_listed(recording));
   if (options.read.diameter_said_by == SaidBy::job)
     say("the lines of its [[reference]] that would read it: " +
         lines_suggested(recording, options, unclear));
@@ -216,8 +187,8 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
   const RecordedText text(numbers ? "" : bytes);
   const ColumnsSaid said =
       options.columns.empty() ? ColumnsSaid{} : read_columns_said(options.columns);
-  const Recording recording =
-      numbers ? recorded_numbers(path, bytes) : recognise(text, path, options.skip, said.decimal);
+  const Recording recording = numbers ? recorded_numbers(path, bytes)
+                                      : recognise_recording(text, path, options.skip, said.decimal);
   Unclear unclear;
   if (said.items.empty()) {
     unclear.why = recording.unclear;

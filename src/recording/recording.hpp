@@ -83,4 +83,11 @@ Recording recorded_numbers(const std::string& path, const std::string& bytes);
 bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> decimal,
                 Recording& out);
 
+/// A text in whichever of these layouts it has. @throws InputError if it holds no table of numbers
+Recording recognise_recording(const RecordedText& text, const std::string& path, std::size_t skip,
+                              std::optional<char> decimal);
+
+/// "1 Nr., 2 Angle(°), 3 X": what there is to choose from; of a column without a name its number.
+std::string columns_listed(const Recording& recording);
+
 }  // namespace trueaxis

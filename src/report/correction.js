@@ -114,7 +114,7 @@ function correctionFold(all) {
   const {margin, speed_rpm: speed} = correction;
   const rpm = (value) => `${tick(Number(value.toPrecision(4)))}${nbsp}rpm`;
   const U = target.axis ? `U (k = ${tick(verdict.k)}) is ${uncertainty(verdict.k * target.axis.start.u_mm, 'mm')} at the start and ${uncertainty(verdict.k * target.axis.end.u_mm, 'mm')} at the end` : 'it is not known';
-  return fold('correction-more', 'The correction in full', facts([
+  return fold('correction-more', 'Full correction', facts([
     ['Speed of the job', rpm(speed)],
     ['Highest speed that works', margin.max_speed.value > 0 ? rpm(margin.max_speed.value) : 'none'],
     ['Following error if sent uncorrected', micrometres(margin.following_uncompensated.value)],

@@ -209,7 +209,7 @@ function seenList({findings, unexplained, consequences = {}, options: {coverage_
 
 function diagnosisFold(reference, index) {
   const {diagnosis, readings} = reference;
-  const title = `The diagnosis in full: ${reference.name}`;
+  const title = `Full diagnosis: ${reference.name}`;
   if (!diagnosis) return null;
   const {verdict, findings, hypotheses, false_alarm: alarm} = diagnosis;
   const parts = [paragraph(diagnosisWords[verdict] ?? verdict, 'lead')];

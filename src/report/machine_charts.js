@@ -38,7 +38,7 @@ function alongProgram(tips, verdict) {
   const curve = (name, values, colour, more = {}) => ({name, type: 'line', symbol: 'none', emphasis: {disabled: true}, itemStyle: {color: colour},
     lineStyle: {color: colour, width: 1.6, ...more}, data: tips.line.map((line, i) => [line, values[i]])});
   const series = [curve('before', tips.before_um, stages.before), curve('after', tips.after_um, stages.after),
-    curve('after, at most in 95 of 100', atMost, stages.after, {type: 'dashed', width: 1.2})];
+    curve('after, at most (95 % confidence)', atMost, stages.after, {type: 'dashed', width: 1.2})];
   const ends = [tips.line[0], tips.line[tips.line.length - 1]];
   if (isNumber(verdict.tolerance_um)) series.push({name: 'tolerance', type: 'line', symbol: 'none', emphasis: {disabled: true}, itemStyle: {color: stages.limit},
     lineStyle: {color: stages.limit, width: 1.2, type: 'dotted'}, data: ends.map((line) => [line, verdict.tolerance_um])});

@@ -67,7 +67,7 @@ function findingsFold({diagnosis}) {
   const cards = findings.map((f, i) => machineFindingCard(f, i + 1));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'}, element('h4', {}, `Unexplained: ${u.pattern}`), facts([['Amplitude', errorSize(u.amplitude)]]),
     paragraph('No effect explains it, so the program does not correct it: its amplitude is counted with the uncertainty.', 'quiet'))));
-  return fold('findings', 'The diagnosis in full', cards.length ? element('div', {class: 'cards'}, cards) : null, gainBlock(diagnosis), locationTable(diagnosis));
+  return fold('findings', 'Full diagnosis', cards.length ? element('div', {class: 'cards'}, cards) : null, gainBlock(diagnosis), locationTable(diagnosis));
 }
 
 /** Effects that share their reason and the plans that show them. */

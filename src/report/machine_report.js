@@ -9,7 +9,7 @@ const outcomes = {
   'no-go': ['NO-GO', 'bad', '✗'],
   done: ['DONE', 'neutral', '–'],
   ideal: ['IDEAL', 'good', '✓'],
-  effects: ['EFFECTS', 'warning', '!'],
+  effects: ['CAUSES FOUND', 'warning', '!'],
   unexplained: ['UNEXPLAINED', 'bad', '?']
 };
 
@@ -18,7 +18,7 @@ function keyNumbers(verdict) {
   return facts(
       [
         ['Tip off with the program as it is, on its path', micrometres(verdict.path_before_um / 1000, verdict.path_before_um / 1000)],
-        ['Tip off with the new program', `at most ${micrometres(verdict.at_most_um / 1000, verdict.at_most_um / 1000)} in 95 of 100`],
+        ['Tip off with the new program', `≤ ${micrometres(verdict.at_most_um / 1000, verdict.at_most_um / 1000)} (95 % confidence)`],
         [
           'Tolerance',
           isNumber(verdict.tolerance_um) ? `${tick(verdict.tolerance_um)}${nbsp}µm` : 'none given'
@@ -42,7 +42,7 @@ function banner({verdict}) {
 
 function warningsSection({verdict: {reservations, remarks}, diagnosis}) {
   const all = [...new Set([...reservations, ...remarks, ...mindedOf(diagnosis)])];
-  return all.length ? section('warnings', 'Mind this', list(all.map(sentence))) : null;
+  return all.length ? section('warnings', 'Warnings', list(all.map(sentence))) : null;
 }
 
 const nextSection = ({verdict: {next}}) =>
@@ -116,7 +116,7 @@ function harmSection({harm}) {
 
 const programFold = (all) => all.compensation ?
     fold(
-        'program-more', 'The program in full', programFacts(all),
+        'program-more', 'Full program data', programFacts(all),
         all.tips ? pathViews(all.tips) : null) :
     null;
 
@@ -140,7 +140,7 @@ function mapFold({maps}) {
 }
 
 const inputsFold = ({inputs, file, machine, chain}) => fold(
-    'inputs', 'What went in',
+    'inputs', 'Inputs',
     facts([[data.of ? 'Measured' : 'Job', file], ['Machine', `${machine || 'without a name'}: ${chain}`]], 'facts origin'),
     table(
         'Files', ['What', 'File', 'Hash'], inputs.map(({what, file, hash}) => [what, file, hash]),
@@ -156,7 +156,7 @@ const machineGlossary = [
     'The one displacement that a rigid part would have had to make the tips\' errors least. It is taken off: probing the part\'s zero point finds it, a measurement of balls does not.'
   ],
   [
-    'At most, in 95 of 100',
+    'At most (95 % confidence)',
     'What is left, what was found and cannot be corrected, and U = 2u of the tip, with u² the trace of its covariance (ISO 14253-1: a go has a risk of 5 % at most).'
   ],
   ['Component error', 'EXC: the error along X as axis C moves (ISO 230-1); EAC: about X.'],

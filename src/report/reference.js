@@ -56,7 +56,7 @@ function statusBlock(reference) {
   const list = [
     ['Status', pill(statusWords[reference.status] ?? reference.status, good)],
     ['Surface', `${reference.surface}${reference.feature === 'bore' ? ' (bore)' : ''}`],
-    ['Readings', `${reference.points}, ${reference.rejected.count} rejected`],
+    ['Readings', `${reference.points}, ${reference.rejected.count} excluded`],
   ];
   if (good || reference.status === 'max_iterations') {
     list.push(['RMS of the residuals', size(reference.rms.value)],
@@ -99,10 +99,10 @@ function budgetChart(reference) {
 }
 
 function rejectedBlock({count, listed}) {
-  if (count === 0) return paragraph('No reading was rejected.', 'quiet');
+  if (count === 0) return paragraph('No reading was excluded.', 'quiet');
   const more = count > listed.length ? ` The first ${listed.length} are listed, ${count - listed.length} more are not.` : '';
-  return element('div', {}, paragraph(`${count} rejected ${count === 1 ? 'reading' : 'readings'}.${more}`, 'quiet'),
-    table('Rejected readings: data row of the stream and why', ['Row', 'Why'], listed.map((r) => [String(r.row), r.why]), 2));
+  return element('div', {}, paragraph(`${count} excluded ${count === 1 ? 'reading' : 'readings'}.${more}`, 'quiet'),
+    table('Excluded readings: data row of the stream and reason', ['Row', 'Reason'], listed.map((r) => [String(r.row), r.why]), 2));
 }
 
 function mapFigures(readings) {
@@ -144,6 +144,7 @@ function formSection(reference, index) {
   const solved = reference.status === 'converged' || reference.status === 'max_iterations';
   const parts = [paragraph(`${diagnosis ? `${diagnosisWords[diagnosis.verdict] ?? diagnosis.verdict} ` : ''}${fitWords(reference)}`)];
   if (diagnosis) parts.push(seenList(diagnosis, readings?.face));
+  if (diagnosis?.limit) parts.push(paragraph(`What limits the axis: ${worded(sentence(diagnosis.limit))}`, 'quiet'));
   if (roundness) return section(`form-${index + 1}`, `Roundness: ${reference.name}`, ...parts, ...(reference.form ? [partFormBlock(reference.form, Boolean(reference.diagnosis))] : []), ...roundnessBlock(reference));
   const polars = solved && readings ? residualPolars(readings) : [];
   if (polars.length) {
@@ -158,9 +159,9 @@ function formSection(reference, index) {
 /** The fit in a sentence. */
 function fitWords(reference) {
   const {points, rejected: {count}, surface, feature, status} = reference;
-  const words = `${points} readings of a ${surface}${feature === 'bore' ? ', a bore' : ''}, ${count ? `${count} left out` : 'none left out'}`;
+  const words = `${points} readings of a ${surface}${feature === 'bore' ? ', a bore' : ''}, ${count ? `${count} excluded` : 'none excluded'}`;
   if (status !== 'converged' && status !== 'max_iterations') return `${words}: ${statusWords[status] ?? status}.`;
-  return `${words}; residuals ${micrometres(reference.rms.value)} RMS.`;
+  return `${words}; residuals ${micrometres(reference.rms.value)} RMS of the ideal fit${isNumber(reference.diagnosis?.rms_shown_mm) ? `, ${micrometres(reference.diagnosis.rms_shown_mm)} of the final one` : ''}.`;
 }
 
 function referenceFold(reference, index) {
@@ -172,6 +173,6 @@ function referenceFold(reference, index) {
       reference.budget.length > 1 && reference.budget.some((line) => Object.values(line.u).some((u) => u.value > 0)) ? budgetChart(reference) : null));
   const budget = reference.budget.length ? [budgetTable(reference)] : [];
   const measured = [reference.form && !reference.roundness ? partFormBlock(reference.form) : null, reference.datums ? datumsBlock(reference.datums, reference.association) : null].filter(Boolean);
-  return fold(`reference-${index + 1}`, `The fit and the form in full: ${reference.name}`, ...measured, statusBlock(reference), ...relative, tables, ...budget,
-    block('Rejected readings', rejectedBlock(reference.rejected)), ...(reference.roundness?.orders.length ? [roundnessTable(reference.roundness)] : []), ...chartBlocks(reference));
+  return fold(`reference-${index + 1}`, `Full results: ${reference.name}`, ...measured, statusBlock(reference), ...relative, tables, ...budget,
+    block('Excluded readings', rejectedBlock(reference.rejected)), ...(reference.roundness?.orders.length ? [roundnessTable(reference.roundness)] : []), ...chartBlocks(reference));
 }

@@ -7,6 +7,7 @@
 
 #include "diagnose/files/axes_text.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
+#include "diagnose/files/diagnosis_screen.hpp"
 #include "diagnose/files/seen.hpp"
 #include "fit/files/fit_files.hpp"
 #include "job/files/job_results.hpp"
@@ -22,10 +23,25 @@ const std::string& job_title(const JobResult& result, const std::string& file) {
   return result.job.name.empty() ? file : result.job.name;
 }
 
+std::string reference_name(const JobResult& result, std::size_t i) {
+  const bool named = i < result.job.references.size() && !result.job.references[i].name.empty();
+  return named ? result.job.references[i].name : "reference " + std::to_string(i + 1);
+}
+
 /// What the banner says in one word: without tolerance or target nothing is met or missed.
 const char* outcome(const JobResult& result) {
   const bool judged = result.job.coaxiality_tolerance_mm && result.target_axis;
   return outcome_of(result.verdict.decision, judged);
+}
+
+/// Where each seat stands as it is clamped, for a hand: none after a slip.
+Json tap_data(const JobResult& result) {
+  Json sentences = Json::array();
+  if (!part_slipped(result).empty()) return sentences;
+  for (std::size_t i = 0; i < result.fits.size(); ++i)
+    if (const std::string tap = tap_text(fit_used(result, i)); !tap.empty())
+      sentences.push_back(result.fits.size() == 1 ? tap : reference_name(result, i) + ": " + tap);
+  return sentences;
 }
 
 Json verdict_data(const JobResult& result) {
@@ -35,6 +51,7 @@ Json verdict_data(const JobResult& result) {
             {"k", verdict.coverage_factor}};
   data["tolerance_mm"] =
       result.job.coaxiality_tolerance_mm.value_or(std::numeric_limits<double>::quiet_NaN());
+  data["tap"] = tap_data(result);
   if (result.target_axis && result.refused.empty()) {
     data["coaxiality_before_mm"] = verdict.coaxiality_before_mm;
     data["coaxiality_after_mm"] = verdict.coaxiality_after_mm;
@@ -98,14 +115,15 @@ Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
   data["titles"] = titles_of(diagnosis);
   add_words(data, diagnosis);
   data["axis_of_cut"] = axis_of_cut;
+  data["limit"] = limit_text(diagnosis);
+  data["rms_shown_mm"] = rms_shown_mm(diagnosis);
   data["simulation"] = simulation_data(stream, diagnosis, again);
   return data;
 }
 
 Json reference_data(const JobResult& result, std::size_t i) {
   Json data = fit_data(result.fits[i]);
-  const bool named = i < result.job.references.size() && !result.job.references[i].name.empty();
-  data["name"] = named ? result.job.references[i].name : "reference " + std::to_string(i + 1);
+  data["name"] = reference_name(result, i);
   if (i < result.streams.size()) {
     const Diagnosis* found =
         i < result.diagnoses.size() && result.diagnoses[i] ? &*result.diagnoses[i] : nullptr;

@@ -10,7 +10,7 @@ for (const {diagnosis} of data.references) {
 }
 const outcomes = {go: ['GO', 'good', '✓'], reserved: ['GO with reservations', 'warning', '!'],
   'not-proven': ['NOT PROVEN', 'warning', '?'], 'no-go': ['NO-GO', 'bad', '✗'], done: ['DONE', 'neutral', '–'],
-  fitted: ['FITTED', 'neutral', '–'], ideal: ['IDEAL', 'good', '✓'], effects: ['EFFECTS', 'warning', '!'], unexplained: ['UNEXPLAINED', 'warning', '?'],
+  fitted: ['FITTED', 'neutral', '–'], ideal: ['IDEAL', 'good', '✓'], effects: ['CAUSES FOUND', 'warning', '!'], unexplained: ['UNEXPLAINED', 'warning', '?'],
   'not-determined': ['NOT DETERMINED', 'bad', '✗']};
 const outcomeWords = /^(NO-GO|NOT PROVEN|NOT DIAGNOSED|GO with reservations|GO|DONE|IDEAL|EFFECTS|UNEXPLAINED)[:,.]?\s+/;
 
@@ -19,11 +19,11 @@ function measuredNumbers({k}) {
   const [reference] = data.references, axis = data.target.references[0]?.axis;
   if (data.references.length !== 1 || !axis) return null;
   const {face} = data.target.references[0], at = (end) => `${plusMinus(offsetOf(end), end.u_mm, k, 'u unknown')}`;
-  const place = (end) => reference.roundness ? 'Eccentricity' : `Axis off at Z = ${millimetres(end.z_mm, 2)}`;
+  const place = (end) => reference.roundness ? 'Eccentricity' : `Axis offset at Z = ${millimetres(end.z_mm, 2)}`;
   const numbers = face ? [['Tilt', slopeWords(axis, k)]] : [[place(axis.start), at(axis.start)]];
   if (!face && !reference.roundness) numbers.push([place(axis.end), at(axis.end)]);
-  if (reference.roundness) numbers.push(['Towards', direction(axis.start, k)], ['Roundness, peak to valley', micrometres((reference.roundness.peak_um + reference.roundness.valley_um) / 1000)]);
-  else numbers.push(['Residuals, RMS', micrometres(reference.rms.value)]);
+  if (reference.roundness) numbers.push(['Direction', direction(axis.start, k)], ['Roundness, peak to valley', micrometres((reference.roundness.peak_um + reference.roundness.valley_um) / 1000)]);
+  else numbers.push(['Residuals, RMS', micrometres(reference.diagnosis?.rms_shown_mm ?? reference.rms.value)]);
   return facts(numbers, 'numbers');
 }
 
@@ -39,7 +39,7 @@ function keyNumbers(verdict) {
   const sameAsWorst = worst && Math.abs(worst.coaxiality_mm - verdict.coaxiality_before_mm) <= 1e-6 + 1e-3 * worst.coaxiality_mm;
   return facts([
     ['Coaxiality before: cut about the spindle axis', plusMinus(verdict.coaxiality_before_mm, sameAsWorst ? worst.u_mm : null, k, 'U as after')],
-    ['Coaxiality after: cut with the correction', `at most ${micrometres(verdict.coaxiality_at_most_mm, verdict.coaxiality_at_most_mm)} in 95 of 100`],
+    ['Coaxiality after: cut with the correction', `≤ ${micrometres(verdict.coaxiality_at_most_mm, verdict.coaxiality_at_most_mm)} (95 % confidence)`],
     ['Tolerance (coaxiality, a diameter)', tolerance],
   ], 'numbers');
 }
@@ -49,18 +49,18 @@ function banner() {
   const numbers = keyNumbers(data.verdict);
   return element('div', {class: `banner ${kind}`, role: 'status'},
     element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
-    paragraph(capital(data.verdict.line.replace(outcomeWords, '')), 'line'), numbers,
+    paragraph(capital(data.verdict.line.replace(outcomeWords, '')), 'line'), ...data.verdict.tap.map((tap) => paragraph(sentence(capital(tap)))), numbers,
     numbers ? paragraph(`± is the expanded uncertainty U = k u with k = ${tick(data.verdict.k)}.`, 'quiet') : null);
 }
 
 function warningsSection() {
   if (!data.warnings.length) return null;
-  return section('warnings', 'Mind this', list(data.warnings.map(({text, of}) => sentence(`${text}${of.length ? ` (${of.join(', ')})` : ''}`))));
+  return section('warnings', 'Warnings', list(data.warnings.map(({text, of}) => sentence(`${text}${of.length ? ` (${of.join(', ')})` : ''}`))));
 }
 
 const nextSection = () => data.next.length ? section('next', 'Next step', list(data.next.map(sentence), data.next.length > 1 ? 'ol' : 'ul')) : null;
 
-const inputsFold = () => data.inputs.length ? fold('inputs', 'What went in', element('div', {class: 'columns'}, data.inputs.map((part) =>
+const inputsFold = () => data.inputs.length ? fold('inputs', 'Inputs', element('div', {class: 'columns'}, data.inputs.map((part) =>
   block(part.title, facts(part.lines))))) : null;
 
 function build() {

@@ -136,10 +136,6 @@ Json next_data(const JobResult& result) {
   if (result.correction && would_prove.empty()) steps.push_back(cut_text(result));
   if (const NextMeasurement* next = best_next(result)) steps.push_back(measurement_text(*next));
   if (result.correction) return steps;
-  const bool moved = !part_slipped(result).empty();
-  if (result.fits.size() == 1 && !moved)
-    if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty())
-      steps.push_back("To centre the part by hand: " + tap);
   if (result.verdict.decision == Decision::no_go)
     steps.push_back("Mend what the verdict names, and run the job again");
   else if (std::ranges::none_of(result.fits, [](const FitResult& fit) {

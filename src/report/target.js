@@ -61,7 +61,7 @@ function remaindersTable(target, references, k) {
   const rows = target.references.filter((r) => r.after).map((r) => [
     references[r.index].name, r.face ? 'axial run-out' : 'coaxiality',
     r.before ? plusMinus(r.before.coaxiality_mm, r.before.u_mm, k, 'u unknown') : 'not determined',
-    isNumber(r.after.at_most_mm) ? `${micrometres(r.after.coaxiality_mm, r.after.at_most_mm)}, at most ${micrometres(r.after.at_most_mm, r.after.at_most_mm)} in 95 of 100` : `${micrometres(r.after.coaxiality_mm)}, u unknown`,
+    isNumber(r.after.at_most_mm) ? `${micrometres(r.after.coaxiality_mm, r.after.at_most_mm)}, ≤ ${micrometres(r.after.at_most_mm, r.after.at_most_mm)} (95 % confidence)` : `${micrometres(r.after.coaxiality_mm)}, u unknown`,
     r.face ? '–' : micrometres(r.after.offset_start_mm), r.face ? '–' : micrometres(r.after.offset_end_mm), tilt(r.after.tilt_deg),
     isNumber(r.weight) ? tick(r.weight) : '–']);
   return table(`What is left at each reference when the part is cut about the target axis, ± U (k = ${tick(k)})`,
@@ -102,5 +102,5 @@ function axesFold(all) {
     const axes = reference.diagnosis ? axesBlock(reference.diagnosis, reference.readings?.face) : null;
     if (axes) parts.push(references.length > 1 ? block(reference.name, axes) : axes);
   }
-  return parts.length ? fold('axes-more', 'The axes in full', ...parts) : null;
+  return parts.length ? fold('axes-more', 'Full axes', ...parts) : null;
 }

@@ -179,7 +179,7 @@ TEST_F(Implausible, FitAloneRefusesColumnsInAnotherOrderAndASensorAtItsLimit) {
                {c_shuffled, "C jumps at random"},
                {z_shuffled, "Z jumps at random"},
                {scaled, "C has another unit"},
-               {limited, "where the sensor's range ends"}};
+               {limited, "the end of the sensor's range"}};
   for (const auto& [stream, why] : cases) {
     file("part.csv", stream.text());
     for (const char* line : {"fit part.csv --surface cylinder",

@@ -57,7 +57,7 @@ TEST(Tap, IsSaidAlikeOnScreenAndPage) {
   FitOptions options;
   options.surface = SurfaceKind::cylinder;
   EXPECT_NE(render_fit_report(stream, result, options)
-                .find("To centre the part by hand: high spot at C = 30\\u00b0, run-out 100"),
+                .find("\"tap\":[\"high spot at C = 30\\u00b0, run-out 100"),
             std::string::npos);
 }
 

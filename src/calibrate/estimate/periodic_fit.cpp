@@ -19,9 +19,10 @@ using Eigen::VectorXd;
 }  // namespace
 
 PeriodicFit::PeriodicFit(std::vector<double> position, std::vector<double> value,
-                         std::size_t smooth)
+                         std::size_t smooth, std::vector<double> sense)
     : position_(std::move(position)),
       value_(std::move(value)),
+      sense_(std::move(sense)),
       smooth_(std::min(smooth, std::clamp<std::size_t>(position_.size() / 3, 2, 4))) {}
 
 std::vector<int> PeriodicFit::orders_up_to(int most, double period,
@@ -35,7 +36,8 @@ std::vector<int> PeriodicFit::orders_up_to(int most, double period,
 
 PeriodicFit::Result PeriodicFit::with(const std::vector<int>& orders, double period) const {
   const auto n = static_cast<Index>(position_.size()), smooth = static_cast<Index>(smooth_);
-  const Index columns = smooth + 2 * static_cast<Index>(orders.size());
+  const auto waves = static_cast<Index>(first_order());
+  const Index columns = waves + 2 * static_cast<Index>(orders.size());
   const Extent range = range_of(position_);
   MatrixXd design(n, columns);
   for (Index i = 0; i < n; ++i) {
@@ -43,14 +45,15 @@ PeriodicFit::Result PeriodicFit::with(const std::vector<int>& orders, double per
     const double s = (2.0 * q - range.low - range.high) / range.length();
     const double basis[] = {1.0, s, 1.5 * s * s - 0.5, (2.5 * s * s - 1.5) * s};
     for (Index k = 0; k < smooth; ++k) design(i, k) = basis[k];
+    if (has_senses()) design(i, smooth) = sense_[static_cast<std::size_t>(i)];
     const std::complex<double> first =
         std::polar(1.0, two_pi * (orders.empty() ? 0.0 : q / period));
     std::complex<double> power = 1.0;
     int at = 0;
     for (std::size_t k = 0; k < orders.size(); ++k) {
       for (; at < orders[k]; ++at) power *= first;
-      design(i, smooth + 2 * static_cast<Index>(k)) = power.real();
-      design(i, smooth + 2 * static_cast<Index>(k) + 1) = power.imag();
+      design(i, waves + 2 * static_cast<Index>(k)) = power.real();
+      design(i, waves + 2 * static_cast<Index>(k) + 1) = power.imag();
     }
   }
   const VectorXd y = Eigen::Map<const VectorXd>(value_.data(), n);
@@ -67,7 +70,7 @@ PeriodicFit::Result PeriodicFit::with(const std::vector<int>& orders, double per
     out.coefficients.push_back(x[k]);
     out.u.push_back(std::sqrt(variance * inverse(k, k)));
   }
-  for (Index k = smooth; k < columns; k += 2) {
+  for (Index k = waves; k < columns; k += 2) {
     const Eigen::Vector2d pair = x.segment<2>(k);
     out.gains.push_back(pair.dot(inverse.block<2, 2>(k, k).inverse() * pair));
   }

@@ -116,6 +116,7 @@ Choice best_period(const PeriodicFit& fit, int max_orders) {
 constexpr double whole_turn_gap_rad = 60.0 * rad_per_deg;  // the widest of a turn that was measured
 constexpr double free_period_turns = 2.0;                  // below, a period is that of the turn
 constexpr double clearly = 10.0;                           // Bayesian information: 150 to 1
+constexpr std::size_t least_of_a_sense = 3;                // readings for a reversal value
 
 /// The widest gap that positions leave in the circle, rad.
 double widest_gap_rad(const std::vector<double>& position_rad) {
@@ -144,25 +145,47 @@ Choice of_turn(const PeriodicFit& fit, const MachineMeasurement& file, int max_o
   return choose(fit, two_pi, std::move(orders));
 }
 
-/// What is fitted to a read-out: a linear axis' polynomial and any period; of a rotary axis that
-/// was read all around the turn alone, or a free period that wins clearly over more than two turns;
-/// of one that was read over a part of it a polynomial.
+/// What is fitted to a read-out, in addition to the reversal value if it was read in both senses: a
+/// linear axis' polynomial and any period; of a rotary axis that was read all around the turn
+/// alone, or a free period that wins clearly over more than two turns; of one that was read over a
+/// part of it a polynomial.
 struct ReadOutModel {
   PeriodicFit fit;
   Choice choice;
   bool repeats = false;  ///< its errors are known everywhere
 };
 
+/// The sense in which each position was approached, ±0.5: that of the step to it, or of the next
+/// one if there is none. Empty: not both senses, or they have less than half of the range in
+/// common.
+std::vector<double> senses_of(const std::vector<double>& position) {
+  std::vector<double> sense(position.size(), 0.0);
+  double next = 0.0;
+  for (std::size_t i = position.size(); i-- > 0;) {
+    const double step = i > 0 ? position[i] - position[i - 1] : 0.0;
+    sense[i] = step != 0.0 ? std::copysign(0.5, step) : next;
+    next = step != 0.0 ? sense[i] : next;
+  }
+  std::vector<double> up, down;
+  for (std::size_t i = 0; i < position.size(); ++i)
+    (sense[i] > 0.0 ? up : down).push_back(position[i]);
+  if (std::min(up.size(), down.size()) < least_of_a_sense) return {};
+  const Extent rising = range_of(up), falling = range_of(down);
+  const double common = std::min(rising.high, falling.high) - std::max(rising.low, falling.low);
+  return common > 0.5 * range_of(position).length() ? sense : std::vector<double>{};
+}
+
 ReadOutModel model_of(const MachineMeasurement& file, std::vector<double> position,
                       std::vector<double> error, int max_orders) {
+  std::vector<double> sense = senses_of(position);
   if (!is_rotary(*file.axis)) {
-    PeriodicFit fit(std::move(position), std::move(error));
+    PeriodicFit fit(std::move(position), std::move(error), 4, std::move(sense));
     Choice choice = best_period(fit, max_orders);
     return {std::move(fit), std::move(choice), false};
   }
   if (widest_gap_rad(position) > whole_turn_gap_rad)
-    return {PeriodicFit(std::move(position), std::move(error)), {}, false};
-  PeriodicFit fit(std::move(position), std::move(error), 1);
+    return {PeriodicFit(std::move(position), std::move(error), 4, std::move(sense)), {}, false};
+  PeriodicFit fit(std::move(position), std::move(error), 1, std::move(sense));
   Choice choice = of_turn(fit, file, max_orders);
   if (!file.gear_ratio && range_of(fit.position()).length() > free_period_turns * two_pi) {
     Choice free = best_period(fit, max_orders);
@@ -265,8 +288,9 @@ AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
   out.repeats = model.repeats;
   for (std::size_t i = 0; i < fit.smooth(); ++i) out.polynomial.push_back(estimate(i));
   for (std::size_t k = 0; k < choice.orders.size(); ++k)
-    out.orders.push_back(
-        {choice.orders[k], estimate(fit.smooth() + 2 * k), estimate(fit.smooth() + 2 * k + 1)});
+    out.orders.push_back({choice.orders[k], estimate(fit.first_order() + 2 * k),
+                          estimate(fit.first_order() + 2 * k + 1)});
+  if (fit.has_senses()) out.reversal = estimate(fit.smooth());
   const auto n = static_cast<double>(file.rows());
   out.rms_before = std::sqrt(fit.with({}, 1.0).rss / n);
   out.rms_after = std::sqrt(result.rss / n);

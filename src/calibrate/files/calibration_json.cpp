@@ -63,6 +63,7 @@ Json read_out_json(const AxisReadOut& one) {
           {"period", one.period > 0.0 ? with_unit(factor * one.period, unit) : Json(nullptr)},
           {"orders", list_of(one.orders, order_json)},
           {"legendre", list_of(one.polynomial, coefficient)},
+          {"reversal_value", one.reversal ? to_json(*one.reversal) : Json(nullptr)},
           {"rms_before", with_unit(factor * one.rms_before, unit)},
           {"rms_after", with_unit(factor * one.rms_after, unit)},
           {"noise", with_unit(factor * one.noise, unit)}};

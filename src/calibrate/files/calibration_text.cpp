@@ -52,6 +52,11 @@ std::string read_out_text(const AxisReadOut& one) {
   std::string text = fmt::format("axis {}: {} readings, RMS {:.3g} -> {:.3g} {}, noise {:.3g} {}\n",
                                  letter_of(one.axis), one.readings, factor * one.rms_before,
                                  factor * one.rms_after, unit, factor * one.noise, unit);
+  if (one.reversal)
+    text += fmt::format(
+        "  reversal value {:.3g} ± {:.2g} {}: it is not in the errors file. Correct it in the "
+        "control\n",
+        factor * one.reversal->value, 2.0 * factor * one.reversal->u, unit);
   if (one.period > 0.0)
     text += fmt::format("  periodic in {:.6g} {}:", rotary ? one.period / rad_per_deg : one.period,
                         rotary ? "deg" : "mm");

@@ -56,7 +56,11 @@ std::string read_out_screen(const AxisReadOut& one) {
     text += fmt::format(", {} orders periodic in {:.6g} {}", one.orders.size(),
                         is_rotary(one.axis) ? one.period / rad_per_deg : one.period,
                         is_rotary(one.axis) ? "deg" : "mm");
-  return text + "\n";
+  text += "\n";
+  if (one.reversal)
+    text += "       " + small_estimate("reversal value", *one.reversal, 2.0) +
+            ": it is not in the errors file. Correct it in the control\n";
+  return text;
 }
 
 }  // namespace

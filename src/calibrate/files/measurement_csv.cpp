@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/files/measurement_csv.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/diagnostics.hpp"
@@ -38,6 +39,11 @@ class Rows {
 
   std::vector<MeasurementColumn> columns;
 
+  void begin(std::vector<MeasurementColumn> found) {
+    columns = std::move(found);
+    of_errors_ = std::ranges::find(columns, Role::error, &MeasurementColumn::role) != columns.end();
+  }
+
   void row(std::string_view line, std::size_t number) {
     csv_split(line, ',', fields_);
     if (fields_.size() != columns.size()) {
@@ -47,7 +53,7 @@ class Rows {
                            ": write one field per column");
       return;
     }
-    begin();
+    begin_row();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       double value = 0.0;
       std::string why = trouble_of(columns[k], fields_[k], value);
@@ -56,10 +62,12 @@ class Rows {
       if (why.empty()) continue;
       diagnostics_.add(number, csv_character(line, fields_[k]), std::move(why));
     }
+    if (of_errors_ && out_.actual.size() == out_.rows())
+      out_.actual.back() += out_.axes.back()[index_of(*out_.axis)];
   }
 
  private:
-  void begin() {
+  void begin_row() {
     out_.axes.emplace_back(AxisPositions{});
     out_.setup.push_back(1);
     out_.ball.push_back(1);
@@ -84,6 +92,7 @@ class Rows {
         out_.axes.back()[index_of(*out_.axis)] = value;
         break;
       case Role::actual:
+      case Role::error:
         out_.actual.push_back(value);
         break;
       case Role::length:
@@ -109,6 +118,7 @@ class Rows {
   MachineMeasurement& out_;
   CsvDiagnostics& diagnostics_;
   std::vector<std::string_view> fields_;
+  bool of_errors_ = false;
 };
 
 /// Whether what was said before the header is enough to read it.
@@ -170,7 +180,7 @@ MachineMeasurement read_measurement_csv(const std::string& path, const Machine& 
     if (!header) {
       header = true;
       if (take_metadata(metadata, machine, number, out, diagnostics))
-        rows.columns = measurement_columns(content, number, metadata, machine, diagnostics);
+        rows.begin(measurement_columns(content, number, metadata, machine, diagnostics));
     } else {
       rows.row(content, number);
     }

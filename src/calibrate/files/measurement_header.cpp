@@ -28,7 +28,8 @@ std::vector<Known> known_columns(const MeasurementMetadata& metadata, const Mach
   if (kind == MeasurementKind::axis) {
     const UnitKind quantity = of_axis(metadata.axis.value_or(AxisName::X));
     return {{"command", Role::command, 0, quantity, true},
-            {"actual", Role::actual, 0, quantity, true},
+            {"actual", Role::actual, 0, quantity, false},
+            {"error", Role::error, 0, quantity, false},
             {"t", Role::time, 0, UnitKind::time, false}};
   }
   const bool array = kind == MeasurementKind::array;
@@ -105,6 +106,15 @@ std::vector<MeasurementColumn> measurement_columns(std::string_view line, std::s
     if (one.needed &&
         std::ranges::find(columns, one.name, &MeasurementColumn::name) == columns.end())
       wrong(0, "has no column " + one.name + ": the columns are " + names(known));
+  }
+  if (*metadata.kind == MeasurementKind::axis) {
+    const auto has = [&](Role role) {
+      return std::ranges::find(columns, role, &MeasurementColumn::role) != columns.end();
+    };
+    if (has(Role::actual) && has(Role::error))
+      wrong(0, "has the columns actual and error: keep one of them");
+    else if (!has(Role::actual) && !has(Role::error))
+      wrong(0, "has neither a column actual nor a column error (actual less command): add one");
   }
   if (!good) columns.clear();
   return columns;

@@ -36,6 +36,7 @@ enum class MeasurementRole {
   along,
   command,
   actual,
+  error,
   tool_length,
   time
 };

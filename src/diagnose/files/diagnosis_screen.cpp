@@ -25,11 +25,8 @@ std::string line(const std::string& head, const std::string& text) { return head
 
 std::string verdict_line(const Diagnosis& d) {
   const auto found = d.findings.size(), unexplained = d.unexplained.size();
-  const std::string rms = fmt::format("residuals {} RMS, noise {}",
-                                      um(d.verdict != DiagnosisVerdict::ideal ? d.gain.rms_after_mm
-                                         : d.noise.masked.empty()             ? d.baseline.rms_mm
-                                                                              : d.extended.rms_mm),
-                                      um(d.noise.sigma_mm));
+  const std::string rms =
+      fmt::format("residuals {} RMS, noise {}", um(rms_shown_mm(d)), um(d.noise.sigma_mm));
   const std::string known = axis_accuracy(d.extended);
   const std::string accuracy = known.empty() ? "" : ", " + known;
   if (d.verdict == DiagnosisVerdict::ideal)
@@ -43,6 +40,12 @@ std::string verdict_line(const Diagnosis& d) {
 }
 
 }  // namespace
+
+double rms_shown_mm(const Diagnosis& d) {
+  return d.verdict != DiagnosisVerdict::ideal ? d.gain.rms_after_mm
+         : d.noise.masked.empty()             ? d.baseline.rms_mm
+                                              : d.extended.rms_mm;
+}
 
 std::string findings_screen(const Diagnosis& d, std::size_t most) {
   const double k = d.baseline.coverage_factor;

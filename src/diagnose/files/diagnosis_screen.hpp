@@ -12,6 +12,9 @@ namespace trueaxis {
 /// @param form lines of the form: they stand before the axis, and last where a tilt is all of it
 std::string diagnosis_screen(const Diagnosis& diagnosis, const std::string& form = {});
 
+/// RMS of the residuals that screen and report give: those of the final model.
+double rms_shown_mm(const Diagnosis& diagnosis);
+
 /// The part of it about what was seen, at most `most` findings.
 std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);
 
@@ -20,7 +23,8 @@ std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);
 std::string unseen_screen(const Diagnosis& diagnosis);
 
 /// "limit  U 0.66 µm would be 0.33 µm without probe.lag …": what limits U of the axis most, and
-/// what to do about it; empty: an axis without U, or of a plane.
+/// what to do about it; empty: an axis without U, or of a plane. limit_text: without the label.
+std::string limit_text(const Diagnosis& diagnosis);
 std::string limit_screen(const Diagnosis& diagnosis);
 
 /// "check  100 readings at C 80-98° excluded …": which readings count nowhere, and why.

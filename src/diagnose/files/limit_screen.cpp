@@ -42,7 +42,7 @@ std::string remedy(const Diagnosis& d, const Effect& effect) {
 
 }  // namespace
 
-std::string limit_screen(const Diagnosis& d) {
+std::string limit_text(const Diagnosis& d) {
   const FitResult& fit = d.extended;
   if (d.limits.empty() || !fit.axis_known() || fit.surface == SurfaceKind::plane) return "";
   const double U_mm = fit.coverage_factor * std::max(fit.axis.u_at(fit.position_min_mm),
@@ -50,22 +50,27 @@ std::string limit_screen(const Diagnosis& d) {
   if (!std::isfinite(U_mm)) return "";
   const AxisLimit& most = d.limits.front();
   const auto would_be = [&](double share) {
-    return fmt::format("limit  U {} would be {} ", um(U_mm),
+    return fmt::format("U {} would be {} ", um(U_mm),
                        um(U_mm * std::sqrt(std::max(0.0, 1.0 - share))));
   };
   if (!most.instead_of.empty())
     return would_be(most.share) + "if it were sure what " + most.instead_of + " is" +
-           (d.next.what.empty() ? "" : ": " + d.next.what) + "\n";
+           (d.next.what.empty() ? "" : ": " + d.next.what);
   if (most.effect.empty())
-    return would_be(0.75 * most.share) + "with four times as many readings: noise is the limit\n";
+    return would_be(0.75 * most.share) + "with four times as many readings: noise is the limit";
   const Effect* effect = d.entry(most.effect);
   if (effect == nullptr) return "";
   if (effect->stated)
     return would_be(most.share) + "if " + std::string(info_of(effect->stated->kind).name) +
-           " were known exactly" + remedy(d, *effect) + "\n";
+           " were known exactly" + remedy(d, *effect);
   const std::string size = assumed(*effect);
   return would_be(most.share) + "without " + most.effect + ", which these readings do not show" +
-         (size.empty() ? "" : " (" + size + " assumed)") + remedy(d, *effect) + "\n";
+         (size.empty() ? "" : " (" + size + " assumed)") + remedy(d, *effect);
+}
+
+std::string limit_screen(const Diagnosis& d) {
+  const std::string text = limit_text(d);
+  return text.empty() ? "" : "limit  " + text + "\n";
 }
 
 }  // namespace trueaxis
