@@ -75,8 +75,8 @@ class Columns {
       by_names();
     else
       as_said(said);
-    if (!taken[role_command]) unclear.emplace_back("no column is the commanded position");
-    if (!taken[role_actual] && !taken[role_error])
+    if (!met_[role_command]) unclear.emplace_back("no column is the commanded position");
+    if (!met_[role_actual] && !met_[role_error])
       unclear.emplace_back("no column is the actual position or the error");
     if (taken[role_error]) taken[role_actual].reset();  // the same with fewer digits
   }
@@ -93,9 +93,13 @@ class Columns {
       if (found[role])
         unclear.push_back(fmt::format("columns {} and {} could both be the {}", *found[role] + 1,
                                       k + 1, role_names[role]));
-      found[role] = k;
+      found[role] = met_[role] ? std::nullopt : std::optional(k);
+      met_[role] = true;
     }
-    if (!found[role_command]) found[role_command] = found[role_position];
+    if (!met_[role_command]) {
+      found[role_command] = found[role_position];
+      met_[role_command] = met_[role_position];
+    }
     for (const ReadOutRole role : {role_command, role_actual, role_error})
       if (found[role]) take(role, *found[role], recording_.columns[*found[role]].unit);
   }
@@ -119,9 +123,10 @@ class Columns {
 
   void take(ReadOutRole role, std::size_t column, const std::string& unit) {
     const auto known = unit_of_word(unit, "*");
-    if (known && find_unit(kind_, *known))
-      taken[role] = Taken{column, *known};
-    else
+    const bool usable = known && find_unit(kind_, *known);
+    met_[role] = true;
+    taken[role] = Taken{column, usable ? *known : "…"};
+    if (!usable)
       unclear.push_back(fmt::format(
           "column {} ({}) has {}: say its unit in --columns, as in {}={}[{}]", column + 1,
           role_names[role], unit.empty() ? "no unit" : "the unit " + csv_quoted(unit),
@@ -130,6 +135,7 @@ class Columns {
 
   const Recording& recording_;
   UnitKind kind_;
+  std::array<bool, 4> met_{};  ///< a column of this role is there, clear or not
 };
 
 [[noreturn]] void refuse(const std::string& path, const Recording& recording,

@@ -12,6 +12,7 @@
 #include "fit/files/fit_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_words.hpp"
+#include "job/slip.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
 

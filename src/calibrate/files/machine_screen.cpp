@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/counted.hpp"
+#include "base/counted.hpp"
 #include "format/text_layout.hpp"
 
 namespace trueaxis {
@@ -53,7 +55,7 @@ std::string read_out_screen(const AxisReadOut& one) {
                   one.readings, small_size(one.rms_before, unit), small_size(one.rms_after, unit),
                   small_size(one.noise, unit));
   if (one.period > 0.0)
-    text += fmt::format(", {} orders periodic in {:.6g} {}", one.orders.size(),
+    text += fmt::format(", {} periodic in {:.6g} {}", counted(one.orders.size(), "order"),
                         is_rotary(one.axis) ? one.period / rad_per_deg : one.period,
                         is_rotary(one.axis) ? "deg" : "mm");
   text += "\n";
