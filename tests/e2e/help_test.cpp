@@ -143,7 +143,8 @@ TEST_F(Help, TroubleIsSeen) {
 }
 
 TEST_F(Help, EveryCommandOfThePagesIsThere) {
-  std::vector<std::filesystem::path> pages{root / "README.md"};
+  std::vector<std::filesystem::path> pages{root / "README.md", root / "CONTRIBUTING.md",
+                                           root / "CHANGELOG.md"};
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "docs"))
     if (entry.path().extension() == ".md" && entry.path().filename() != "numbers.md")  // history
       pages.push_back(entry.path());

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include "base/counted.hpp"
-#include "base/counted.hpp"
 #include "format/text_layout.hpp"
 
 namespace trueaxis {
