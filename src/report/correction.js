@@ -122,7 +122,7 @@ function correctionFold(all) {
     ['Set-points per revolution', tick(Number(margin.set_points_per_revolution.toPrecision(4)))],
   ]), table('What the actuator has left', ['Limit', 'Used', 'Available', 'Share'],
     marginLines(margin).map((line) => [element('span', {}, line.name, element('small', {}, line.what)), line.show(line.used), line.show(line.limit), percent(line.share)])),
-  paragraph("Predictions from the actuator's data in the job, which state no uncertainty; the stroke reserve is what stands against it.", 'quiet'),
+  paragraph("Predictions from the actuator's data in the job, which state no uncertainty; the stroke reserve covers it.", 'quiet'),
   element('div', {class: 'pair'}, correctionMap(correction), commandCharts(correction)), harmonicsTable(correction),
   paragraph(`The profile carries the uncertainty of the target axis: ${U}. The actuator's gain and lag follow from the data of the job, which state no uncertainty.`, 'quiet'));
 }

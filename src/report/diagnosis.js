@@ -2,9 +2,9 @@
 // What the model gets wrong: findings, gain, what cannot be seen, noise, the next measurement.
 
 const diagnosisWords = {
-  ideal: 'Nothing was found that the ideal surface misses.',
-  effects: 'The ideal surface misses something, and its causes are named below.',
-  unexplained: 'The ideal surface misses something that no catalogued cause explains in full.',
+  ideal: 'No deviation from the ideal fit was detected.',
+  effects: 'The readings deviate from the ideal fit. The causes are listed below.',
+  unexplained: 'The readings deviate from the ideal fit, and no cause of the catalogue explains it fully.',
 };
 
 const spoken = (name) => name.replaceAll('_', ' ');
@@ -23,7 +23,7 @@ const minutes = (plan) => `${tick(Number(plan.minutes.toPrecision(2)))}${nbsp}mi
 function measurementWords(plan) {
   if (!plan) return null;
   if (!plan.plan) return `No plan does it${plan.why_not ? `: ${plan.why_not}` : ''}.`;
-  return `${plan.what || data.words.measurements[plan.plan]}: chance of the right name ${chance(plan.power_before)} → ${chance(plan.power ?? plan.power_after)}, ${minutes(plan)}${otherPlans(plan)}.`;
+  return `${plan.what || data.words.measurements[plan.plan]}: probability of the right name ${chance(plan.power_before)} → ${chance(plan.power ?? plan.power_after)}, ${minutes(plan)}${otherPlans(plan)}.`;
 }
 
 function otherPlans({others = []}) {
@@ -34,7 +34,7 @@ function findingCard(finding, number, k, titles, face) {
   const {axis_shift: shift, cosmetic} = finding.axis_bias;
   const list = named(finding.parameters).map((p) => [spoken(p.name), estimated(p, k)]);
   list.push(['Part of the readings (RMS)', micrometres(finding.rms.value)],
-    [face ? 'Tilt at the outer end when left out' : 'Axis shift when left out', estimated(shift, k)],
+    [face ? 'Tilt at the outer end if ignored' : 'Axis shift if ignored', estimated(shift, k)],
     falseAlarm(finding));
   const parts = [element('h4', {}, `${number}. ${finding.seen}`, cosmetic ? element('span', {class: 'pill neutral'}, face ? 'cosmetic for the run-out' : 'cosmetic for coaxiality') : null),
     facts(list), classTable(finding, titles)];
@@ -49,7 +49,7 @@ function findingsBlock({findings, unexplained, titles, options: {coverage_factor
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'},
     element('h4', {}, `Unexplained: ${u.seen}`), facts([['Amplitude', estimated(u.amplitude, k)]]),
     paragraph('No catalogued cause explains it. It stays in the model as it is, so that the axis is protected.', 'quiet'))));
-  return block('Findings, the most harmful first', paragraph(`± is U = k u, k = ${tick(k)}.`, 'quiet'), element('div', {class: 'cards'}, cards));
+  return block('Causes, the most harmful first', paragraph(`± is U = k u, k = ${tick(k)}.`, 'quiet'), element('div', {class: 'cards'}, cards));
 }
 
 const spread = ({value, low, high}) => isNumber(value) && value > 0
@@ -58,14 +58,14 @@ const spread = ({value, low, high}) => isNumber(value) && value > 0
 function gainFacts({gain, options: {coverage_factor: k}}, face) {
   const ratio = gain.held_out_ratio;
   return facts([
-    ['Held-out RMS, ideal surface', spread(gain.held_out_rms_before)],
-    ['Held-out RMS, extended model', spread(gain.held_out_rms_after)],
+    ['Cross-validated RMS, ideal fit', spread(gain.held_out_rms_before)],
+    ['Cross-validated RMS, with the causes', spread(gain.held_out_rms_after)],
     ['Ratio (95 %)', isNumber(ratio.value) && ratio.value > 0 ? `${fixed(ratio.value, 2)} (${fixed(ratio.low ?? ratio.value, 2)} to ${fixed(ratio.high ?? ratio.value, 2)})` : 'not determined'],
     ['Noise floor', micrometres(gain.noise_floor.value)],
     [face ? 'What the tilt moved by, at the outer end' : 'Shift of the axis', estimated(gain.axis_shift, k)],
-    [face ? 'Expected axial run-out at the outer end, cut square to the axis of the ideal surface'
-      : 'Expected coaxiality over the probed length, cut about the axis of the ideal surface', estimated(gain.coaxiality_before, k)],
-    [`The same ${face ? 'square to the axis of the extended model' : 'about the stated axis'}`, estimated(gain.coaxiality_after, k)],
+    [face ? 'Expected axial run-out at the outer end, cut square to the axis of the ideal fit'
+      : 'Expected coaxiality over the probed length, cut about the axis of the ideal fit', estimated(gain.coaxiality_before, k)],
+    [`The same ${face ? 'square to the final axis' : 'about the final axis'}`, estimated(gain.coaxiality_after, k)],
   ]);
 }
 
@@ -95,7 +95,7 @@ function axesBlock({verdict, axes, shares, axis_of_cut: cut, options: {coverage_
   const rows = Object.entries(axisNames).filter(([key]) => axes[key].length && !(ideal && key === 'named'))
     .map(([key, [name, meaning]]) => [noted(name, ideal && key === 'stated' ? 'that of the ideal fit, with what may hide in the readings' : meaning), ...axes[key].map(place)]);
   const words = ideal ? 'Nothing was found, so the axis that is stated is that of the ideal fit. Its U holds what effects too small to be found may do to it.'
-    : 'The axis that is stated is an average over what may have caused the readings, each cause by its probability: the data cannot tell more. Its U holds what they leave open.';
+    : 'The final axis is an average over the possible causes, each weighted by its probability. Its U contains what the data cannot decide.';
   return block('The axis', paragraph(`${words}${!cut ? '' : cut === 'stated' ? ' The correction takes the axis that is stated.' : ` The job asks for the ${cut} axis, and the correction takes that.`}`),
     table(`x and y of the axis; ± is U = k u, k = ${tick(k)}`, ['Axis', ...axes.stated.map(({z}) => `at Z = ${millimetres(z, 2)}`)], rows),
     shares.length ? paragraph(ideal ? 'What widens its U:' : 'What moves it from the named axis, or widens its U:') : null,
@@ -105,14 +105,14 @@ function axesBlock({verdict, axes, shares, axis_of_cut: cut, options: {coverage_
 /** How far the simulation is from the measurement, before and after, in words. */
 function discrepancyWords({simulation}, extended) {
   const {rms_before_mm: before, rms_after_mm: after, noise_mm: noise, left_share: left, noise_share: noiseShare} = simulation;
-  const missed = `The simulation of the ideal surface misses the measured readings by ${micrometres(before)} (RMS)`;
+  const missed = `The simulation of the ideal fit misses the measured readings by ${micrometres(before)} (RMS)`;
   if (!extended) return `${missed}; noise alone would by ${micrometres(noise)}. Nothing was found that a better simulation would need.`;
-  if (!isNumber(left)) return `${missed}, that of the extended model by ${micrometres(after)}.`;
+  if (!isNumber(left)) return `${missed}, that with the causes by ${micrometres(after)}.`;
   const explained = left <= 1
-    ? `The extended model explains ${percent(1 - left)} of the variance of this discrepancy and leaves ${percent(left)}`
-    : `The extended model explains nothing of this discrepancy: its variance grows to ${percent(left)}`;
+    ? `The causes explain ${percent(1 - left)} of the variance of this discrepancy and leave ${percent(left)}`
+    : `The causes explain nothing of this discrepancy: its variance grows to ${percent(left)}`;
   const alone = noiseShare >= 1 ? '; noise alone could make a discrepancy as large as the first' : left <= 1.1 * noiseShare ? `, about what noise alone would leave (${percent(noiseShare)})` : `; noise alone would leave ${percent(noiseShare)}`;
-  return `${missed}, that of the extended model by ${micrometres(after)}. ${explained}${alone}.`;
+  return `${missed}, that with the causes by ${micrometres(after)}. ${explained}${alone}.`;
 }
 
 function simulatedBy({by_lathe: lathe, why_not: why}) {
@@ -168,7 +168,7 @@ function noiseBlock({noise, checks, remarks, titles, options: {coverage_factor: 
     if (isNumber(noise[key].value)) list.push([`σ, ${name}`, micrometres(noise[key].value)]);
   }
   list.push(['Autoregression', noise.autoregression.length ? noise.autoregression.map((phi) => fixed(phi, 2)).join(', ') : 'none: white'],
-    ['Readings left out', String(noise.masked)]);
+    ['Excluded readings', String(noise.masked)]);
   if (noise.interruptions > 0) list.push(['Interruptions', String(noise.interruptions)]);
   if (noise.gaps.length) list.push(['Gaps', noise.gaps.join('; ')]);
   const found = checks.filter((check) => check.found);
@@ -214,11 +214,11 @@ function diagnosisFold(reference, index) {
   const {verdict, findings, hypotheses, false_alarm: alarm} = diagnosis;
   const parts = [paragraph(diagnosisWords[verdict] ?? verdict, 'lead')];
   if (hypotheses) {
-    parts.push(paragraph(`${hypotheses} hypotheses were tried; the chance of any finding in a stream that has none is ${percent(alarm)}.` +
-      (reference.extended && readings?.face ? ' The correction takes the axis of the extended model.' : ''), 'quiet'));
+    parts.push(paragraph(`${hypotheses} hypotheses were tried; the probability of a false alarm is ${percent(alarm)}.` +
+      (reference.extended && readings?.face ? ' The correction uses the final axis.' : ''), 'quiet'));
   }
   const {status, message} = diagnosis.extended;
-  if (status !== 'converged') parts.push(paragraph(`The extended model: ${statusWords[status] ?? status}. ${message}`, 'alert'));
+  if (status !== 'converged') parts.push(paragraph(`The final model: ${statusWords[status] ?? status}. ${message}`, 'alert'));
   if (findings.length || diagnosis.unexplained.length) parts.push(gainFacts(diagnosis, readings?.face));
   parts.push(findingsBlock(diagnosis, readings?.face), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
   return fold(`diagnosis-${index + 1}`, title, ...parts);

@@ -12,12 +12,12 @@ function diagnosisReadings({readings, diagnosis}) {
 
 const simulatedWords = {
   measured_um: 'Measured: deviation from a true-running surface.',
-  simulated_before_um: 'Simulated before: the ideal surface.',
-  simulated_after_um: 'Simulated after: the extended model.',
+  simulated_before_um: 'Simulated before: the ideal fit.',
+  simulated_after_um: 'Simulated after: with the causes.',
 };
 const idealWords = {
   measured_um: simulatedWords.measured_um,
-  simulated_before_um: 'Simulated: the ideal surface.',
+  simulated_before_um: 'Simulated: the ideal fit.',
   before_um: 'Measured minus simulated.',
 };
 const differenceWords = {
@@ -113,11 +113,11 @@ function plansChart(plans) {
   const build = (width) => ({
     grid: grid({top: 48}),
     legend: legend({left: 0, right: 0}),
-    xAxis: axis('chance of the right name in %', {min: 0, max: 100}),
+    xAxis: axis('probability of the right name in %', {min: 0, max: 100}),
     yAxis: axis('', {type: 'category', inverse: true, data: shown.map((plan) => plan.what || data.words.measurements[plan.plan]),
       axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink, interval: 0, width: width < 480 ? 130 : 300, overflow: 'break', fontSize: width < 480 ? 10 : 12}}),
     series: [bars('with the data at hand', 'power_before', colours.grey), bars('with the measurement added', 'power', colours.series[2])],
   });
   return figure({caption: 'What each measurement would do, as predicted from its geometry and the noise found here.',
-    description: `Chance of the right name with each measurement: ${shown.map((plan) => `${plan.what} ${chance(plan.power_before)}, then ${chance(plan.power)}`).join('; ')}.`, size: 'short', renderer: 'svg', build, height: (width) => 100 + (width < 480 ? 70 : 46) * shown.length});
+    description: `Probability of the right name with each measurement: ${shown.map((plan) => `${plan.what} ${chance(plan.power_before)}, then ${chance(plan.power)}`).join('; ')}.`, size: 'short', renderer: 'svg', build, height: (width) => 100 + (width < 480 ? 70 : 46) * shown.length});
 }

@@ -33,7 +33,7 @@ function residualPolars(readings) {
   const least = largest(parts.flatMap((part) => [...part.residual.um, ...part.found?.um ?? []]));  // one scale for all
   return parts.map((part) => centredPolar({measured: part.residual, found: part.found, least,
     words: `At ${place(part)}, ${part.residual.averaged ? `${part.readings} readings as means per degree` : `${part.readings} readings`}:`,
-    description: `Polar plot of what the ideal surface leaves at ${place(part)}${part.found ? ', with what was found' : ''}.`}));
+    description: `Polar plot of the residuals of the ideal fit at ${place(part)}${part.found ? ', with what was found' : ''}.`}));
 }
 
 /** The trace of one section about its least-squares circle, and its harmonics. */

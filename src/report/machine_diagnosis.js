@@ -2,9 +2,9 @@
 // What the measurement shows of the machine, and what it does not.
 
 const machineVerdicts = {
-  ideal: 'Beside the errors of location nothing was found.',
-  effects: 'Beside the errors of location the machine has the errors named below.',
-  unexplained: 'Beside the errors of location the machine does something that no catalogued effect explains in full.',
+  ideal: 'No errors were found in addition to the errors of location.',
+  effects: 'In addition to the errors of location the machine has the errors listed below.',
+  unexplained: 'In addition to the errors of location the machine has a deviation that no catalogued cause explains fully.',
 };
 
 /** mm as µm, degrees as µrad: the sizes that errors of machines have. */
@@ -43,7 +43,7 @@ function locationTable({extended, baseline}) {
   const rows = Object.entries(extended.parameters).map(([name, p]) => [withTitle(name), errorSize(p)]);
   if (!rows.length) return null;
   return block('Errors of location', paragraph(`Fitted together with what was found, ± U with k = 2. ${sentence(baseline.gauge)}`, 'quiet'),
-    table('Where the axes stand and point, against the machine\'s file', ['Error', 'Size ± U'], rows));
+    table('Positions and directions of the axes, compared with the machine file', ['Error', 'Size ± U'], rows));
 }
 
 /** What might be taken for certain and is not, and checks of the data that found something. */

@@ -74,7 +74,7 @@ function programFacts({compensation: c, part, verdict, program}) {
           'Tip between the ends, before → after',
           `${um(verdict.between_before_um)} → ${um(verdict.between_um)}`
         ],
-        ['U of the tip (k = 2), without where the part stands', um(verdict.U_um)]);
+        ['U of the tip (k = 2), without the position of the part', um(verdict.U_um)]);
   if (verdict.not_corrected_um > 0)
     list.push(['Found, and not to be corrected', um(verdict.not_corrected_um)]);
   if (part)
@@ -110,7 +110,7 @@ function harmSection({harm}) {
       ({plan, U_without_place_of_part: after}) => `${micrometres(after.value)} after measuring ${planWords(plan)}`);
   return section(
       'program', 'On the program',
-      paragraph(`${harm.file}, ${harm.blocks} positions. ${U}: ${micrometres(harm.U_without_place_of_part.value)}, without where the part stands${plans.length ? `; ${plans.join('; ')}` : ''}.`),
+      paragraph(`${harm.file}, ${harm.blocks} positions. ${U}: ${micrometres(harm.U_without_place_of_part.value)}, without the position of the part${plans.length ? `; ${plans.join('; ')}` : ''}.`),
       rows.length ? table('The tip off by each effect alone', ['Effect', 'Size', 'Tip off by', 'Block'], rows, 2) : null);
 }
 
@@ -132,7 +132,7 @@ function mapFold({maps}) {
   return fold(
       'map', 'The error over the volume',
       paragraph(
-          'How far the tip is off in the part over what was measured and what the program uses. After: what is left, and U (k = 2) of the tip. Mind the scales: every map has its own.'),
+          'How far the tip is off in the part over what was measured and what the program uses. After: the remaining error, and U (k = 2) of the tip. Mind the scales: every map has its own.'),
       ...maps.map(
           (map) => element(
               'div', {class: 'pair maps'}, drawn(map, 'before_um', 'Before'),
@@ -153,16 +153,16 @@ const machineGlossary = [
   ],
   [
     'Part as a whole',
-    'The one displacement that a rigid part would have had to make the tips\' errors least. It is taken off: probing the part\'s zero point finds it, a measurement of balls does not.'
+    'The one displacement that a rigid part would have had to make the tips\' errors least. It is subtracted: probing the part\'s zero point finds it, a measurement of balls does not.'
   ],
   [
     'At most (95 % confidence)',
-    'What is left, what was found and cannot be corrected, and U = 2u of the tip, with u² the trace of its covariance (ISO 14253-1: a go has a risk of 5 % at most).'
+    'The remaining error, what was found and cannot be corrected, and U = 2u of the tip, with u² the trace of its covariance (ISO 14253-1: a go has a risk of 5 % at most).'
   ],
   ['Component error', 'EXC: the error along X as axis C moves (ISO 230-1); EAC: about X.'],
   [
     'Error of location',
-    'Y0A: where axis A stands along Y; C0A: how it is turned about Z. X0S: the spindle, X0W: the workpiece.'
+    'Y0A: the position of axis A along Y; C0A: its rotation about Z. X0S: the spindle, X0W: the workpiece.'
   ],
   [
     'Held',
@@ -170,9 +170,9 @@ const machineGlossary = [
   ],
   [
     'Class',
-    'Where other effects explain the readings as well, all are listed with their probabilities: the data do not support one name more firmly than that.'
+    'If rival causes fit the readings equally well, all are listed with their probabilities.'
   ],
-  ['Held-out RMS', 'What the model leaves in blocks of positions that it was not fitted to.']
+  ['Cross-validated RMS', 'The residuals in blocks of positions that it was not fitted to.']
 ];
 
 function build() {

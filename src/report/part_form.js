@@ -92,7 +92,7 @@ function datumsBlock(datums, association) {
   const found = datums.find((one) => one.ends);
   const heads = found ? found.ends.map((end) => `off at Z = ${millimetres(end.z.value, 2)}`) : ['off'];
   return block('The axis by other associations', paragraph(`The axis of this job is that of ${associationWords[association] ?? 'least squares along the probe line'}, without what was found. A coordinate measuring machine that is set to another association finds an axis that is so far off; ` +
-    'those that rest on few readings take their noise in whole, and have no U here.'),
+    'those that rest on few readings contain all of their noise, and do not have a U here.'),
   table('How far the axis would be off', ['Association', ...heads], datums.map((one) => ({cells: [`${associationWords[one.association] ?? one.association}${one.of_iso_5459 ? ' (default of ISO 5459:2011)' : ''}`,
     ...(one.ends ? one.ends.map((end) => micrometres(end.off.value)) : heads.map(() => '–'))], note: one.why ? sentence(one.why) : null, lost: false}))));
 }

@@ -22,7 +22,7 @@ function mapNote(readings) {
   if (readings.thinned && !readings.cells) return '';
   return readings.thinned
     ? `${readings.count} readings as means of ${readings.cells.columns} × ${readings.cells.rows} cells; cells without a reading are blank, rejected readings are left out.`
-    : `Each mark is one of ${readings.count} readings${readings.points.rejected.length ? '; triangles are rejected readings' : ''}.`;
+    : `Each mark is one of ${readings.count} readings${readings.points.rejected.length ? '; triangles are excluded readings' : ''}.`;
 }
 
 /** Unrolled map of `key` (deviation_um or residual_um): cells for long streams, else every reading. */

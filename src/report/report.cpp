@@ -35,10 +35,11 @@ const char* outcome(const JobResult& result) {
   return outcome_of(result.verdict.decision, judged);
 }
 
-/// Where each seat stands as it is clamped, for a hand: none after a slip.
+/// Where and how far to tap each seat: nothing after a slip, nor if there is a table, which holds
+/// for the part as it is clamped.
 Json tap_data(const JobResult& result) {
   Json sentences = Json::array();
-  if (!part_slipped(result).empty()) return sentences;
+  if (result.correction || !part_slipped(result).empty()) return sentences;
   for (std::size_t i = 0; i < result.fits.size(); ++i)
     if (const std::string tap = tap_text(fit_used(result, i)); !tap.empty())
       sentences.push_back(result.fits.size() == 1 ? tap : reference_name(result, i) + ": " + tap);

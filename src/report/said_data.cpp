@@ -124,7 +124,7 @@ Json warnings_data(const JobResult& result) {
   const bool answered = !result.job.target && !seat_distances(result).empty();
   for (const Disagreement& apart : result.agreement.disagreements)
     if (!answered)
-      warnings.add("More than U explains, " + words_of(how_apart(apart), result) +
+      warnings.add("More than U: " + words_of(how_apart(apart), result) +
                    ", half-way between the two");
   return warnings.list();
 }

@@ -29,12 +29,12 @@ function whyNoBound() {
 function verdict(rows, tested, good) {
   const leastForAnInterval = 100;
   if (tested) return [`${good} of ${tested} ratios at the bound`, 'RMSE over the Cramér-Rao bound is 1 within what the number of repeats leaves (1 % over all ratios together).'];
-  if (data.cells.every((cell) => cell.failures === data.repeats)) return ['No result', 'Every repeat failed; below the table stands why.'];
+  if (data.cells.every((cell) => cell.failures === data.repeats)) return ['No result', 'Every repeat failed; the reason is below the table.'];
   if (!rows.some((row) => isNumber(row.bound))) return ['No bound', `There is no bound to compare with: ${whyNoBound() || 'none is known here'}.`];
   if (!rows.some((row) => isNumber(row.ratio))) return ['No ratio', 'No parameter has both an error and a bound.'];
   return ['Ratios without an interval', data.drawn.length && data.repeats < leastForAnInterval
     ? `There are bounds, but where numbers are drawn a ratio has an interval from ${leastForAnInterval} repeats on: whether it is 1 within chance is not known.`
-    : 'There are bounds, but too few repeats to say whether a ratio is 1 within chance.'];
+    : 'There are bounds, but too few repeats to say whether a ratio is 1 within the noise.'];
 }
 
 function summary() {
@@ -64,7 +64,7 @@ function chartSections(view) {
   const shares = (options) => view.all.slice(0, drawn.length).map((curve) => shareChart(data, view, curve, options)).filter(Boolean);
   const efficiency = shares({keys: ['ratio_low', 'ratio', 'ratio_high'], factor: 1, reference: 1, name: 'RMSE / bound', words: 'RMSE over the bound with its 95 % interval.'});
   const coverage = shares({keys: ['coverage_low', 'coverage', 'coverage_high'], factor: 100, reference: 95.45, name: '%', words: 'Share of the repeats with |error| ≤ U (k = 2), 95 % interval; dashed: 95.45 %.'});
-  const said = {found: 'Found: the diagnosis reports anything at all. Where nothing is hidden, these are false alarms.', named: 'Named: every hidden effect is in the class of a finding.'};
+  const said = {found: 'Found: the diagnosis reports anything at all. Where nothing is hidden, these are false alarms.', named: 'Named: every hidden effect is among the causes listed for a deviation.'};
   const detection = view.panels.flatMap((panel) => Object.keys(said).map((key) => detectionChart(data, panel, key, said[key]))).filter(Boolean);
   return [detection.length ? section('detection', 'What the diagnosis finds', row(detection)) : null,
     section('error', 'Error and bound', note, ...[each(errorChart)].flat()),

@@ -95,7 +95,7 @@ function axesFold(all) {
   const parts = [];
   if (target.references.some((r) => r.after)) {
     parts.push(element('div', {class: 'wide'}, remaindersTable(target, references, k)),
-      paragraph(`Offsets and tilt of the remainder are what the ${target.datum ? 'datum leaves at each reference, which no tolerance is held against' : 'weights leave'}; they follow from the two estimated axes, and their uncertainty is in that of the coaxiality.`, 'quiet'));
+      paragraph(`Offsets and tilt of the remainder are what the ${target.datum ? 'datum leaves at each reference, without a tolerance' : 'weights leave'}; they follow from the two estimated axes, and their uncertainty is in that of the coaxiality.`, 'quiet'));
   }
   if (lines.length && target.z_end_mm !== target.z_start_mm) parts.push(element('div', {class: 'pair'}, alongChart(lines, 'x'), alongChart(lines, 'y')));
   for (const reference of references) {

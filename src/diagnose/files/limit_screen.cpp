@@ -40,6 +40,13 @@ std::string remedy(const Diagnosis& d, const Effect& effect) {
   return text.empty() ? "" : ": " + text;
 }
 
+/// An uncertainty has two digits.
+std::string two_digits(double mm) {
+  if (!(mm > 0.0)) return um(mm);
+  const double step = std::pow(10.0, std::floor(std::log10(mm)) - 1.0);
+  return um(step * std::round(mm / step));
+}
+
 }  // namespace
 
 std::string limit_text(const Diagnosis& d) {
@@ -50,8 +57,8 @@ std::string limit_text(const Diagnosis& d) {
   if (!std::isfinite(U_mm)) return "";
   const AxisLimit& most = d.limits.front();
   const auto would_be = [&](double share) {
-    return fmt::format("U {} would be {} ", um(U_mm),
-                       um(U_mm * std::sqrt(std::max(0.0, 1.0 - share))));
+    return fmt::format("U {} would be {} ", two_digits(U_mm),
+                       two_digits(U_mm * std::sqrt(std::max(0.0, 1.0 - share))));
   };
   if (!most.instead_of.empty())
     return would_be(most.share) + "if it were sure what " + most.instead_of + " is" +
