@@ -274,7 +274,7 @@ std::string_view template_of(ReasonCode code) {
       {follows_at_speed, "it can follow {parts}"},
       {at_speed, "at {speed::.12g} rpm"},
       {at_speed_or_less, "at {speed::.12g} rpm or less"},
-      {at_no_speed, "not at any speed"},
+      {at_no_speed, "at no speed"},
       {set_surface, "use --surface {surface} if it is one"},
       {program_expected,
        "tip off by at most {at_most:um:two} µm with the new program (95 % confidence), "

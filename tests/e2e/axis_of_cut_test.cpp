@@ -66,7 +66,8 @@ TEST_F(AxisOfCut, AJobMayAskForTheIdealOrTheNamedOne) {
             2.0 * off_mm - 1e-6);
   const std::string line = ideal.at("verdict").at("line");
   EXPECT_EQ(ideal.at("verdict").at("decision"), "go_with_reservations") << line;
-  EXPECT_TRUE(contains(line, "cut about the ideal axis, not about the final axis")) << line;
+  EXPECT_TRUE(contains(line, "cuts the part about the ideal axis, not about the final axis"))
+      << line;
 }
 
 TEST_F(AxisOfCut, CorrectTakesTheSameKey) {

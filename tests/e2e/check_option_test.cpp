@@ -62,9 +62,9 @@ TEST_F(CheckOption, RefusesTheAssociationOfAGaugeAsRunDoes) {
   const CommandStreams run = command("run job.toml -o out"),
                        checked = command("run job.toml -o out --check");
   EXPECT_EQ(run.exit_code, 1) << run.err;
-  EXPECT_TRUE(contains(run.out, "NO-GO: the association of seat takes positions")) << run.out;
+  EXPECT_TRUE(contains(run.out, "NO-GO: the association of seat needs positions")) << run.out;
   EXPECT_EQ(checked.exit_code, 1) << checked.out;
-  EXPECT_TRUE(contains(checked.err, "the association of seat takes positions")) << checked.err;
+  EXPECT_TRUE(contains(checked.err, "the association of seat needs positions")) << checked.err;
 }
 
 TEST_F(CheckOption, OfAMachine) {

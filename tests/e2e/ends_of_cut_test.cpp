@@ -135,7 +135,7 @@ TEST_F(EndsOfCut, AServoProgramFeedsFromWhereItSaysTheMachineMustStand) {
   EXPECT_EQ(orders[3], "G93");
   EXPECT_EQ(orders[4][0], 'C');
   const std::string place = orders[2].substr(3, orders[2].find(" F") - 3);
-  EXPECT_TRUE(contains(program, "MUST STAND AT " + place + " )")) << program.substr(0, 600);
+  EXPECT_TRUE(contains(program, "MUST BE AT " + place + " )")) << program.substr(0, 600);
   EXPECT_FALSE(contains(program, "G0"));
 }
 

@@ -195,7 +195,7 @@ TEST_F(FormCommand, RefusesWhatTheReadingsDoNotCarry) {
   probe("thousand.csv", round, 1000, {0.0});
   const CommandStreams few = command("form thousand.csv --upr 1-500");
   EXPECT_EQ(few.exit_code, 3);
-  EXPECT_TRUE(contains(few.err, "500 UPR needs 3500 readings a turn")) << few.err;
+  EXPECT_TRUE(contains(few.err, "500 UPR needs 3500 readings per revolution")) << few.err;
   EXPECT_TRUE(contains(few.err, "--upr 1-50")) << few.err;
   EXPECT_EQ(command("form thousand.csv --upr 1-15").exit_code, 0);
   const auto refused = [&](const std::string& arguments, const std::string& word) {

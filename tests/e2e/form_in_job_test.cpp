@@ -77,7 +77,8 @@ TEST_F(FormInAJob, TooFewReadingsForTheFilterAreNotJudged) {
   probe_part("");
   const CommandStreams done = run("roundness_tolerance_um = 5\n");
   EXPECT_EQ(done.exit_code, 1);
-  EXPECT_TRUE(contains(done.out, "form   roundness NOT JUDGED: 50 UPR takes 350 readings a turn"))
+  EXPECT_TRUE(
+      contains(done.out, "form   roundness NOT JUDGED: 50 UPR needs 350 readings per revolution"))
       << done.out;
   EXPECT_EQ(form().at("judgements").at(0).at("conformity"), "not_judged");
 }

@@ -198,7 +198,7 @@ TEST_F(ForeignTables, RefuseWhatIsWrong) {
        "[EYX]\nGridpoints = {\n1 2 3\n");
   expect_all(
       pose + "e.txt",
-      {"e.txt:1: stands in no block", "e.txt:2: the block [EXQ] is \"EXQ\", which is not an error",
+      {"e.txt:1: is outside a block", "e.txt:2: the block [EXQ] is \"EXQ\", which is not an error",
        "e.txt:4: a block without", "e.txt:6: Y0X has no effect", "e.txt:8: X0C has a VALUE",
        "e.txt:10: arguments must ascend", "e.txt:14: \"1 2 3\" is not a row", "is not closed"});
   file("e.csv",
@@ -243,8 +243,8 @@ TEST_F(MachineCommand, RefusesAMachineWithAllThatIsWrong) {
        "[axes.A]\ndirection = [0, 0, 0]\npoint = [0, 0, 0]\n[axes.Z]\npoint_mm = [0, 0, 1]\n"
        "limits_mm = [5, -5]\n[axes.B]\n[tool]\nlength = 3\n");
   expect_all("machine pose --machine bad.toml q.csv",
-             {"bad.toml:2:9: `chain` has not the tool `t`: end with it", "has two beds `b`",
-              "has `C` before the bed", "has `X'` behind the bed", "has `U`: the axes are",
+             {"bad.toml:2:9: `chain` does not have the tool `t`: end with it", "has two beds `b`",
+              "has `C` before the bed", "has `X'` after the bed", "has `U`: the axes are",
               "has the axis X twice", "bad.toml:3:1: the top level has no key `nam`, did you mean",
               "bad.toml:5:13: `direction` has no length", "has no key `point`, did you mean",
               "bad.toml:8:12: `point_mm` has no meaning for a linear axis",

@@ -150,7 +150,7 @@ TEST_F(RunCommand, EachReferenceHasItsDiagnosis) {
 TEST_F(RunCommand, OnlyRepeatingMotionsMayBeAskedFor) {
   for (const char* id : {"probe.height", "part.roundness", "spindle.asynchronous", "bogus"}) {
     file("job.toml", simple_job(cylinder_reference) + "[correction]\ninclude = [\"" + id + "\"]\n");
-    expect_input_error("run job.toml -o out", std::string("holds '") + id + "'");
+    expect_input_error("run job.toml -o out", std::string("contains '") + id + "'");
   }
   file("job.toml", simple_job(cylinder_reference) +
                        "[correction]\ninclude = [\"spindle.radial_synchronous\"]\n");

@@ -128,7 +128,7 @@ TEST(CutChecks, TheFactorOfUIsThatOfALine) {
     EXPECT_EQ(cut_objection(result), "");
   }
   const JobResult far = run_job(job_of(cylinder(18.0, 500.0, 490.0)), {probed(PartKind::cylinder)});
-  EXPECT_TRUE(says(cut_objection(far), "that U is extrapolated: 4")) << cut_objection(far);
+  EXPECT_TRUE(says(cut_objection(far), "that U is extrapolated to 4")) << cut_objection(far);
 }
 
 TEST(CutChecks, OfARelativeGaugeTheMaterialIsNotKnownAndThatIsSaid) {

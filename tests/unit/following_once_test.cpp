@@ -121,7 +121,7 @@ TEST(Remedy, OfAStrokeThatIsTooSmallIsNone) {
   actuator.stroke_mm = 0.1;
   const Reasons remedies =
       make_correction(far_axis(), cylinder(), ToolSetup{}, actuator).margin.remedies;
-  EXPECT_EQ(words_of(remedies, ", or "), "it would not at any speed");
+  EXPECT_EQ(words_of(remedies, ", or "), "it can follow at no speed");
 }
 
 }  // namespace

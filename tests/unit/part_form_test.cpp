@@ -181,7 +181,7 @@ TEST(PartForm, WhatTheReadingsDoNotCarryIsNotJudged) {
   const Case one = assessed(scenario, task);
   ASSERT_EQ(one.form.judgements.size(), 1u);
   EXPECT_EQ(one.form.judgements.front().conformity, Conformity::not_judged);
-  EXPECT_NE(one.form.judgements.front().why.find("350 readings a turn"), std::string::npos);
+  EXPECT_NE(one.form.judgements.front().why.find("350 readings per revolution"), std::string::npos);
   EXPECT_FALSE(one.form.met());
   // Without a tolerance the widest standard band that 474 angles of one surface carry.
   const Case free = assessed(scenario);

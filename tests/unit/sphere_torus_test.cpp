@@ -163,7 +163,8 @@ TEST(Sphere, ABallThatIsTooLargeIsSaid) {
   options.ball_radius_mm = 30.0;
   const FitResult found = fit(sphere(25.0), options);
   ASSERT_FALSE(found.notes.empty());
-  EXPECT_NE(found.notes.front().find("the part would have a radius of -5"), std::string::npos);
+  EXPECT_NE(found.notes.front().find("no part has a radius of -5"), std::string::npos)
+      << found.notes.front();
 }
 
 TEST(Sphere, ASphereFromAFileIsRefusedAsACylinder) {

@@ -176,7 +176,7 @@ TEST(StreamMetadata, AFitSaysWhatWasTakenAndWhatWasNotUsed) {
   EXPECT_TRUE(notes_of(tube(said + "X_M,C[rad],Z"), SurfaceKind::cylinder)
                   .ends_with("if it is in degrees, write C[deg]\n"));
   EXPECT_TRUE(notes_of(tube(said + "X_M,C[deg],Z", rad_per_deg), SurfaceKind::cylinder)
-                  .starts_with("C covers 5.76° of the part only"));
+                  .starts_with("C covers only 5.76° of the part"));
 }
 
 TEST(StreamMetadata, NoiseDisagreesBeyondThreeEitherWay) {

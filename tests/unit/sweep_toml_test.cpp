@@ -115,7 +115,7 @@ TEST(SweepToml, RefusesWhatIsNoSweep) {
       "noise.x");
   const std::string cut =
       "[cut.target]\nkind = \"cylinder\"\nz_start_mm = 0\nz_end_mm = 1\nradius_mm = 2\n";
-  expect_complaint(part + "[cut]\ntable = \"t.csv\"\n" + cut, "take `table` out");
+  expect_complaint(part + "[cut]\ntable = \"t.csv\"\n" + cut, "remove `table`");
   expect_complaint("surface = \"section\"\n" + part + cut, "an axis with a direction");
   expect_complaint(
       part + "[cut.target]\nkind = \"face\"\nx_start_mm = 1\nx_end_mm = 9\nz_face_mm = 0\n",

@@ -206,7 +206,7 @@ TEST(TargetDatum, SeatsThatShareNoAxisAreNoDatum) {
   job.datums = {{"A", "B"}};
   const JobResult common = run_job(job, streams);
   EXPECT_EQ(common.verdict.decision, Decision::not_proven);
-  EXPECT_TRUE(says(common, "share no axis")) << verdict_line(common);
+  EXPECT_TRUE(says(common, "do not share one axis")) << verdict_line(common);
   job.datums = {{"A"}};
   const JobResult alone = run_job(job, streams);
   EXPECT_EQ(alone.verdict.decision, Decision::go_with_reservations);
@@ -263,8 +263,8 @@ TEST(TargetDatum, WhatMakesNoDatumIsRefusedWithWhatToDo) {
   expect("", "datum = [\"A\", \"C\"]", "names a face together with another reference");
   expect("", "datum = [\"A\"]\nsecondary_datum = [\"A\"]",
          "is an axis, but the primary datum already fixes the axis");
-  expect("", "secondary_datum = [\"C\"]", "needs a primary one");
-  expect("association = \"maximum_inscribed\"", "", "is of a bore");
+  expect("", "secondary_datum = [\"C\"]", "needs a primary datum");
+  expect("association = \"maximum_inscribed\"", "", "applies to a bore");
   expect("association = \"circumscribed\"", "", "minimum_circumscribed");
 }
 
