@@ -149,14 +149,14 @@ TEST_F(SimulateFrom, RefusesWhatDoesNotBelongTogether) {
   ASSERT_EQ(command("simulate another.toml -o another.csv").exit_code, 0);
   expect_input_error("simulate --from d.json --stream another.csv --compare",
                      "is the diagnosis of another stream");
-  expect_input_error("simulate --from d.json --diameter --compare", "table one");
+  expect_input_error("simulate --from d.json --diameter --compare", "correct one");
   expect_input_error("simulate --from d.json --ball-radius-mm 2 --compare", "--diameter");
   expect_input_error("simulate --from gone.json --compare", "gone.json: cannot be read");
   expect_input_error("simulate --from part.csv --compare", "trueaxis.diagnosis/2");
   file("empty.json", "{}");
   expect_input_error("simulate --from empty.json --compare", "trueaxis.diagnosis/2");
   ASSERT_EQ(command("fit part.csv --surface cylinder --json fit.json").exit_code, 0);
-  expect_input_error("simulate --from fit.json --compare", "is no trueaxis.diagnosis/2");
+  expect_input_error("simulate --from fit.json --compare", "is not a trueaxis.diagnosis/2");
   json open = result("d.json");
   open.at("named").at("status") = "rank_deficient";
   file("open.json", open.dump());
