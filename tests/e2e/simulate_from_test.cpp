@@ -156,7 +156,7 @@ TEST_F(SimulateFrom, RefusesWhatDoesNotBelongTogether) {
   file("empty.json", "{}");
   expect_input_error("simulate --from empty.json --compare", "trueaxis.diagnosis/2");
   ASSERT_EQ(command("fit part.csv --surface cylinder --json fit.json").exit_code, 0);
-  expect_input_error("simulate --from fit.json --compare", "is not a trueaxis.diagnosis/2");
+  expect_input_error("simulate --from fit.json --compare", "is no trueaxis.diagnosis/2");
   json open = result("d.json");
   open.at("named").at("status") = "rank_deficient";
   file("open.json", open.dump());
