@@ -31,9 +31,9 @@ inline constexpr double readings_per_revolution = 23.7;
 /// tilt.
 virtual_lathe::Scenario plain_scenario(PlanId plan, SurfaceId surface, int variant);
 
-/// The scenario with a further measurement, by the code of its separator (docs/reference/effects.md: RV RZ 2W
-/// DW ST RC RE OZ RM XJ), appended: the passes at hand stay as they are. Nothing: MS, which is
-/// another part, and unknown codes.
+/// The scenario with a further measurement, by the code of its separator
+/// (docs/reference/effects.md: RV RZ 2W DW ST RC RE OZ RM XJ), appended: the passes at hand stay as
+/// they are. Nothing: MS, which is another part, and unknown codes.
 std::optional<virtual_lathe::Scenario> with_measurement(virtual_lathe::Scenario scenario,
                                                         std::string_view code);
 
