@@ -72,7 +72,7 @@ Outcome judge_names(const BlindCase& blind_case, const Sealed& truth, const Answ
 
 constexpr const char* names[] = {
     "correct",       "too wide",           "wrong name",    "missed", "false alarm",
-    "extra finding", "not called unknown", "not abstained", "crash"};
+    "extra cause", "not called unknown", "not abstained", "crash"};
 
 }  // namespace
 

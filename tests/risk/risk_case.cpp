@@ -245,12 +245,12 @@ std::string_view name_of(Group group) {
                                         "slip without t",
                                         "two slips",
                                         "creeping slip",
-                                        "slip beside drift",
+                                        "slip with drift",
                                         "slip at an end",
                                         "slip with a turn",
                                         "slip in noise of 0.8",
                                         "slip in a bore",
-                                        "slip probed behind"};
+                                        "slip probed from the rear"};
   return names[static_cast<std::size_t>(group)];
 }
 
