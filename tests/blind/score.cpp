@@ -71,7 +71,7 @@ Outcome judge_names(const BlindCase& blind_case, const Sealed& truth, const Answ
 }
 
 constexpr const char* names[] = {
-    "correct",       "too wide",           "wrong name",    "missed", "false alarm",
+    "correct",     "too wide",           "wrong name",    "missed", "false alarm",
     "extra cause", "not called unknown", "not abstained", "crash"};
 
 }  // namespace

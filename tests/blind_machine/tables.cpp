@@ -59,7 +59,7 @@ double median(std::vector<double> list) {
 
 std::string to_string(Outcome outcome) {
   constexpr const char* names[] = {
-      "correct",       "too wide",           "wrong name",    "missed",    "false alarm",
+      "correct",     "too wide",           "wrong name",    "missed",    "false alarm",
       "extra cause", "not called unknown", "not abstained", "no advice", "unresolved",
       "crash"};
   return names[static_cast<int>(outcome)];
