@@ -33,10 +33,11 @@ inline constexpr std::array<const char*, 5> criterion_names{
 
 /// An element in its place. What it does not have is NaN.
 struct Feature {
-  /// The centre; of a line, axis or plane its point that is nearest to the centroid of the points.
+  /// The centre, or the point of a line, axis or plane that is nearest to the centroid of the
+  /// points.
   Point3 point_mm{};
-  /// Unit vector of the axis or normal; of a cone to where the radius grows, else the component
-  /// largest in size is positive. Of a sphere NaN.
+  /// Unit vector of the axis or normal. A cone's points to where the radius grows; else the
+  /// component largest in size is positive. Of a sphere NaN.
   Point3 direction{};
   double radius_mm = std::numeric_limits<double>::quiet_NaN();  ///< of a torus: major
   double half_angle_rad = std::numeric_limits<double>::quiet_NaN();
@@ -53,8 +54,8 @@ struct AssociationCertificate {
     double multiplier = 0.0;
   };
   std::vector<Contact> contacts;  ///< empty for the Gaussian
-  /// Of the Gaussian |Jᵀd|, of all others |Σ λ s ∇d|, per parameter as motion of the surface at the
-  /// far end of the points; 0 at an optimum.
+  /// For the Gaussian |Jᵀd|, for all others |Σ λ s ∇d|, per parameter as motion of the surface at
+  /// the far end of the points; 0 at an optimum.
   double stationarity = 0.0;
   /// What a neighbour within the size of the points could be better at most, to first order, mm.
   double gap_mm = 0.0;
@@ -83,8 +84,8 @@ struct AssociatedFeature {
   Feature u{};             ///< standard uncertainty of each number, NaN: see why_no_u
   std::string why_no_u{};  ///< empty where u is there
   double rms_mm = std::numeric_limits<double>::quiet_NaN();  ///< of the distances
-  /// Largest distance less smallest; of a line and a circle in space, which are tubes about the
-  /// points, twice the largest.
+  /// Largest distance less smallest; twice the largest for a line and a circle in space, which are
+  /// tubes about the points.
   double zone_mm = std::numeric_limits<double>::quiet_NaN();
   AssociationCertificate certificate{};
   int iterations = 0;

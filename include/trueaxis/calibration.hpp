@@ -47,7 +47,7 @@ struct CalibratedParameter {
   double u_noise = 0.0;  ///< of u, were there no component errors; 0: not told apart
 };
 
-/// A component error that the fit has beside its parameters, at its plausible size.
+/// A component error that the fit has in addition to its parameters, at its plausible size.
 struct CalibratedComponent {
   std::string name;  ///< EXC
   Estimate rms;      ///< of what the data show of it, over the axis' travel or a turn; mm or rad
@@ -62,7 +62,7 @@ struct NotDetermined {
   std::string why;
 };
 
-/// Where a ball, or the point at s = 0 of a bar, stands on the workpiece's body: in M, zero
+/// The place of a ball, or of the point at s = 0 of a bar, on the workpiece's body: in M, zero
 /// position, with what is held.
 struct PlacedBall {
   std::size_t file = 0;
@@ -116,7 +116,7 @@ struct Calibration {
   std::vector<AxisReadOut> read_outs;
   ErrorModel errors;  ///< given and found together, component errors too, with their covariance
   std::size_t equations = 0, unknowns = 0;
-  /// Of balls, bars and arrays; where there are none, of the read-outs of linear axes.
+  /// For balls, bars and arrays; without them, for the read-outs of linear axes.
   double rms_before_mm = 0.0, rms_after_mm = 0.0;
   double rms_parameters_mm = 0.0;  ///< with the parameters alone, without component errors
   double noise_mm = 0.0;           ///< σ of one number that u is made of
@@ -139,11 +139,11 @@ Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement
 std::string implausible(const Calibration& found, const CalibrationOptions& options);
 
 /// The mistake in the columns that a measurement most likely has, and what to write: exchanged
-/// columns, wrong signs, radians as degrees, where mended they leave half of the RMS at most; and
-/// readings that scatter thirty times less than is stated, or of which more is left than machines
-/// leave and thirty times more than is stated. Empty: the data show none. That all
-/// deviations are negated they show only where the axes stood off the ball by more than its errors.
-/// @param left_by_all_mm RMS of the readings beside all errors, those that a diagnosis found too
+/// columns, wrong signs or radians as degrees, if the right ones leave half of the RMS at most.
+/// Also readings that scatter thirty times less than stated, or that leave more than machines do
+/// and thirty times more than stated. Empty: the data show no mistake. They show that all
+/// deviations are negated only if the axes were off the ball by more than its errors. @param
+/// left_by_all_mm RMS of the readings after all errors, those that a diagnosis found too
 std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
                            const CalibrationOptions& options, const Calibration& found,
                            double left_by_all_mm);

@@ -45,7 +45,7 @@ struct LargestInProgram {
   std::size_t line = 0;
 };
 
-/// Of tip and direction, against those of the program as it was read on a machine without errors.
+/// For tip and direction, against those of the program as it was read, on a machine without errors.
 struct LargestToolError {
   LargestInProgram position, direction;
 };
@@ -94,11 +94,11 @@ struct ProgramCompensation {
   std::optional<LargestInProgram> u_tip;  ///< standard uncertainty, where the errors have u
   std::vector<ProgramEnd> ends;           ///< of every move that is reached, where they are wanted
 
-  /// The largest deviation of the actual tip on the whole path, ends of blocks and between them: of
-  /// the program as it was read, and as it is written.
+  /// The largest deviation of the actual tip on the whole path, ends of blocks and between them,
+  /// for the program as it was read and as it is written.
   LargestInProgram off_before() const, off_after() const;
-  /// Whether a block or the whole path is further off than it was: such a program is no improvement
-  /// and must not replace the old one.
+  /// Whether a block or the whole path is further off than it was: such a program is not an
+  /// improvement and must not replace the old one.
   bool comes_out_worse() const;
 };
 

@@ -9,7 +9,7 @@
 
 namespace trueaxis {
 
-/// A form in which a correction is handed to a machine, beside the table of run_job.
+/// A form in which a correction goes to a machine, in addition to the table of run_job.
 enum class ControlFormat {
   grid,                 ///< CSV: C down, Z (of a face X) across, µm
   halstreamer,          ///< LinuxCNC: a set-point a line, µm, and C
@@ -20,7 +20,7 @@ enum class ControlFormat {
 
 std::string_view to_string(ControlFormat format);
 
-/// What a control wants to be told beside the correction itself.
+/// What a control needs to know in addition to the correction itself.
 struct ControlTable {
   ControlFormat format = ControlFormat::grid;
   std::string file;                 ///< name in the folder of the results
@@ -28,7 +28,7 @@ struct ControlTable {
   double position_step_mm = 1.0;    ///< along Z (of a face X); of SINUMERIK the length of a band
   bool x_is_diameter = false;       ///< servo_nc: X is written as a diameter
   bool minutes = false;             ///< servo_nc: F is minutes a block instead of blocks a minute
-  std::string head, tail;           ///< servo_nc: what stands before and behind the blocks
+  std::string head, tail;           ///< servo_nc: text before and after the blocks
   int x_axis = 1, c_axis = 2, z_axis = 3;  ///< Beckhoff: numbers of the axes
 };
 
@@ -36,9 +36,9 @@ struct ControlTable {
 struct MadeControlTable {
   std::string text;
   double rounding_mm = 0.0;  ///< half the last digit of a value
-  /// What the control makes of the text, read back (linear between its points, of a band its one
-  /// table, of halstreamer each line held until the next), from the wanted correction; of
-  /// halstreamer from straight lines between the commands: rounding and coarseness together.
+  /// How far the control's reading of the text is from the wanted correction: rounding and
+  /// coarseness together. It is linear between its points (for a band its one table). halstreamer
+  /// holds each line until the next; its deviation is from straight lines between the commands.
   Deviation off;
 };
 

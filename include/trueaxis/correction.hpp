@@ -59,7 +59,7 @@ struct Reference {
   double freedom = std::numeric_limits<double>::infinity();
 };
 
-/// What is left at one reference when the part is cut about the target axis.
+/// The residual at one reference if the part is cut about the target axis.
 struct Remainder {
   std::string name;
   double offset_start_mm = 0.0,
@@ -86,7 +86,7 @@ struct TargetAxis {
 TargetAxis solve_target_axis(std::span<const Reference> references, double z_start_mm,
                              double z_end_mm, bool needs_position = true);
 
-/// What is left at each reference when the part is cut about any axis `target` instead.
+/// The residual at each reference if the part is cut about any axis `target` instead.
 std::vector<Remainder> remainders_of(std::span<const Reference> references, const Axis& target,
                                      double z_start_mm, double z_end_mm);
 
@@ -126,9 +126,9 @@ struct ToolSetup {
   double height_mm = 0.0;  ///< Y of the cutting edge in the tool's own frame: positive to the side
                            ///< from which the surface comes when C grows
   double angle_from_probe_rad =
-      0.0;                   ///< about the spindle from the probe to the tool; a turret behind: π
-  double speed_rpm = 600.0;  ///< > 0
-  int sense = 1;             ///< sense of C while cutting: +1 or −1
+      0.0;  ///< about the spindle from the probe to the tool; a turret at the rear: π
+  double speed_rpm = 600.0;       ///< > 0
+  int sense = 1;                  ///< sense of C while cutting: +1 or −1
   double feed_mm_per_rev = 0.1;   ///< > 0; the direction follows from the target's start and end
   double c_start_rad = 0.0;       ///< spindle angle at the first row
   int rows_per_revolution = 360;  ///< linear interpolation then errs by 4e-5 of a 1-UPR amplitude
@@ -137,8 +137,8 @@ struct ToolSetup {
 /// The rows of a correction table, in the order in which they are run. For a face the actuator
 /// works along Z and `position_mm` is the machine X; else it works along X and `position_mm` is Z.
 /// Positions are those of the centre of the tool's nose, so that the contact runs over the target.
-/// No row lies beyond the end of the path: the last whole revolution, and what is left of the one
-/// before it, are cut at the end, where the feed stands.
+/// No row lies beyond the end of the path: the last whole revolution, and the rest of the one
+/// before it, are cut at the end, where the feed is 0.
 struct CorrectionRows {
   std::vector<int> revolution;
   std::vector<double> position_mm;
@@ -165,8 +165,8 @@ struct ActuatorMargin {
   double set_points_per_revolution = 0.0;
   double following_uncompensated_mm = 0.0;  ///< peak, if the wanted profile were sent as it is
   double following_mm = 0.0;                ///< peak, with what X_command holds; steady run
-  double following_once_mm = 0.0;  ///< of it what turns once a revolution with the part, at the
-                                   ///< worst place: the axis of the cut moves by it (Eq. 116a)
+  double following_once_mm = 0.0;  ///< of it what turns once per revolution with the part, at the
+                                   ///< ///< worst place: the axis of the cut moves by it (Eq. 116a)
   double following_limit_mm = 0.0;
   bool follows = false;
   Reasons breaks;              ///< the limits that break, none when it follows
@@ -187,7 +187,7 @@ struct RepeatingMotion {
 /// How far what a control makes of a table is from the wanted correction, over the cut.
 struct Deviation {
   double largest_mm = 0.0;  ///< anywhere
-  double once_mm = 0.0;     ///< amplitude of what turns once a revolution: the axis moves by it
+  double once_mm = 0.0;     ///< amplitude of what turns once per revolution: the axis moves by it
 };
 
 struct Correction {
@@ -215,8 +215,8 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
                            const ToolSetup& tool, const Actuator& actuator,
                            std::vector<RepeatingMotion> motions = {});
 
-/// The fewest rows a revolution with which `between_rows` of this cut would be at most `largest_mm`
-/// anywhere and `once_mm` once a revolution; 0: not even with 100000.
+/// The fewest rows per revolution with which `between_rows` of this cut would be at most
+/// `largest_mm` anywhere and `once_mm` once per revolution; 0: not even with 100000.
 int rows_that_would_do(const Correction& correction, const Deviation& limit);
 
 }  // namespace trueaxis

@@ -45,7 +45,7 @@ class CovarianceOf {
     if (found == names_.end()) return std::nullopt;
     return static_cast<std::size_t>(found - names_.begin());
   }
-  /// @throws ContractViolation for a name that it has not.
+  /// @throws ContractViolation for a name that it does not have.
   double between(const Name& a, const Name& b) const {
     const auto i = find(a), j = find(b);
     expects(i && j, "a name of the covariance");

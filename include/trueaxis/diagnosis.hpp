@@ -16,7 +16,7 @@
 
 namespace trueaxis {
 
-/// A cause found in the data, refitted jointly with the surface and the other findings.
+/// A cause found in the data, refitted jointly with the surface and the other causes.
 struct Finding : NamedFinding {
   TermValue term;  ///< of the best explanation: an effect of the catalogue, fitted
   std::vector<FitParameter> parameters;  ///< catalogue's names, edge units (mm, deg, s, Hz, 1)
@@ -24,7 +24,7 @@ struct Finding : NamedFinding {
   bool cosmetic = false;                 ///< improves the RMS, not the axis
 
   std::string effect() const { return term.id(); }
-  /// The class: every id that explains it as well, the named one first.
+  /// The class: every id that fits the readings equally well, the named one first.
   std::vector<std::string> members() const { return members_beside(effect()); }
   bool may_be(std::string_view effect) const;  ///< whether the class holds it
 
@@ -66,7 +66,7 @@ struct NoiseReport {
   std::optional<double> repeated_mm;
   std::optional<double> revolutions_mm;
   std::optional<double> stated_mm;      ///< sensor_noise of the stream or job
-  std::vector<Rejected> masked;         ///< readings that were left out, and why
+  std::vector<Rejected> masked;         ///< readings that were excluded, and why
   std::vector<std::string> gaps;        ///< missing sectors or lengths: where
   std::vector<Rejected> interruptions;  ///< keyways, holes: first row of each and its sector
 };
@@ -76,7 +76,7 @@ struct Gain : Explained {
   double noise_floor_mm = 0.0;
   Estimate axis_shift;         ///< mm, largest over Z between the baseline's axis and the extended
   Estimate coaxiality_before;  ///< mm, of the part that a correction from the baseline would cut
-  Estimate coaxiality_after;   ///< mm, from the extended model
+  Estimate coaxiality_after;   ///< mm, from the final axis
 };
 
 struct NextMeasurement {
@@ -94,10 +94,10 @@ struct SpectrumBin {
   double before_mm = 0.0, after_mm = 0.0;  ///< amplitude
 };
 
-/// A model that the axis is averaged over beside the named one.
+/// A model that the axis is averaged over in addition to the named one.
 struct AxisShare {
   std::string effect;      ///< id; empty: none
-  std::string instead_of;  ///< id of the finding in whose place it stands; empty: beside all
+  std::string instead_of;  ///< id of the cause whose place it takes; empty: of none
   double probability = 0.0;
   Estimate axis_shift;  ///< mm; largest over Z, from the axis of the named model
 };
@@ -105,7 +105,7 @@ struct AxisShare {
 /// A source of U of the axis.
 struct AxisLimit {
   std::string effect;      ///< id of a cause that was not found; empty: noise, or see below
-  std::string instead_of;  ///< id of a finding: what else it may be
+  std::string instead_of;  ///< id of a named cause: what else it may be
   double share = 0.0;      ///< of u², by which that would be smaller without this source
 };
 
@@ -120,8 +120,8 @@ struct RefutedStatement {
 
 /// What the model gets wrong.
 struct Diagnosis : Conclusion {
-  FitResult baseline;  ///< the ideal surface
-  FitResult named;     ///< refitted with all findings as they are named
+  FitResult baseline;  ///< the ideal fit
+  FitResult named;     ///< refitted with all causes as they are named
   /// Averaged over what may have caused the readings, each model by its probability: what is stated
   /// and cut. Its u holds what the data cannot tell.
   FitResult extended;
@@ -148,8 +148,8 @@ struct Diagnosis : Conclusion {
 
   /// The entry of an id, of the catalogue or of one's own; nullptr: none has it.
   const Effect* entry(std::string_view id) const;
-  /// The finding that is a slip of the part: the axes are then those of before, and the part stands
-  /// there no longer. nullptr: there is none.
+  /// The cause that is a slip of the part: the axes are then those before it, where the part no
+  /// longer is. nullptr: there is none.
   const Finding* slip() const;
 };
 
@@ -159,8 +159,8 @@ struct DiagnoseOptions {
   double false_alarm = 0.01;  ///< per stream, over all hypotheses
   int max_findings = 8;       ///< beyond that the surface is the wrong one
   int threads = 0;            ///< 0: as many as there are; the result does not depend on it
-  /// Effects beside the catalogue that may be causes too, ids of their own; they outlive the
-  /// result.
+  /// Further effects that may be causes, with ids that the catalogue does not have; they outlive
+  /// the result.
   std::span<const Effect> own_effects = {};
 };
 
@@ -169,8 +169,8 @@ struct DiagnoseOptions {
 Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options);
 
 /// The stream less what the stated values of its influences do to it, about the surface that is
-/// fitted to what is left (delay and lag in all orders, the others in the first).
-/// @throws InputError as fit() does
+/// fitted to the residuals. Delay and lag count in all orders, the others in the first. @throws
+/// InputError as fit() does
 ProbeStream corrected_by_known(ProbeStream stream, const FitOptions& options);
 
 }  // namespace trueaxis

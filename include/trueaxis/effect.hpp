@@ -35,9 +35,9 @@ struct EffectParameter {
   double low = 0.0, high = 0.0;
   std::string_view meaning;
   std::string_view of = {};  ///< shape or linear parameter that it tells, where named otherwise
-  /// Of `share_of`, a parameter of the shape: what `high` is at most; 0: any.
+  /// The share of `share_of`, a parameter of the shape, that `high` is at most; 0: any.
   double share = 0.0;
-  double least = -1e300, most = 1e300;  ///< of a linear one; what is beyond is no such effect
+  double least = -1e300, most = 1e300;  ///< of a linear one; what is beyond is not such an effect
   double TermShape::*share_of = &TermShape::range_mm;
 };
 
@@ -60,12 +60,12 @@ struct ShapeValues {
     per_length,    ///< a wavelength: the probed length over the value
     per_swing,     ///< a wavelength: the range of what the probe senses over the value
     duration,      ///< a time: share of what the measurement lasts
-    instant        ///< when so large a share of the readings was taken
+    instant        ///< when so large a share of the readings is recorded
   };
   double TermShape::*parameter = nullptr;
   std::vector<double> values = {};
   In in = In::itself;
-  std::size_t alone = 0;  ///< index of the value that is taken where only one is tried
+  std::size_t alone = 0;  ///< index of the value to use if only one is tried
 };
 
 /// Parameters that are free together, at some shapes.
@@ -73,15 +73,15 @@ struct SearchForm {
   std::vector<std::size_t> free = {};  ///< linear parameters; empty: all
   ShapeValues starts = {};             ///< shapes to start from; none: the typical one
   int degrees = 0;                     ///< Legendre degrees along Z that the stream must tell
-  std::string_view told = {};          ///< not empty: limits of the plan are told of it apart
+  std::string_view told = {};          ///< not empty: has limits of the plan of its own
 };
 
-/// What a search tries of an effect one by one, beside the lines that it scans for.
+/// What a search tries of an effect one by one, in addition to the lines that it scans for.
 struct SearchRange {
   enum class When {
     always,      ///< in every step
     told_apart,  ///< so once re-chucking or the rear side tells frames; before, as `at_orders`
-    at_orders,   ///< at those undulations per revolution that stand out
+    at_orders,   ///< at those undulations per revolution with a peak
     scanned      ///< by a scan alone: as a line, or a step between any two readings
   } when = When::always;
   std::vector<SearchForm> forms = std::vector<SearchForm>(1);
@@ -132,7 +132,7 @@ struct Separation {
   std::string_view code, how;
 };
 
-/// Largest shift of the identified axis over Z when the effect is left out, per unit of its
+/// Largest shift of the identified axis over Z if the effect is not modelled, per unit of its
 /// parameter; R = 40 mm, tan α = 0.1, e = 0.2 mm, tilt 1 mrad, Z 0-60 mm. Depends on the plan.
 struct AxisBias {
   double value = 0.0;
@@ -184,8 +184,8 @@ struct Effect {
   std::optional<SpectralLine> line = {};
   std::optional<Refinement> refinement = {};
   std::string_view second_order_twin = {};  ///< id: one in the first order, told in the second
-  int between_passes = 0;  ///< place among those that show from pass to pass, beside which the
-                           ///< noise is judged, as many as it can bear; 0: none of them
+  int between_passes = 0;  ///< place among those that show from pass to pass, which are fitted ///<
+                           ///< when the noise is judged, as many as it can bear; 0: not one
   bool repeats_at_tool = false;  ///< a motion that the tool meets as the probe did
   /// How much wider than their range its sizes spread: above 1 what wears, below what is set by
   /// hand and would be seen.
@@ -197,7 +197,7 @@ struct Effect {
   bool same_in_cut = false;  ///< the cut meets it as the probe did: the axis it cuts is the same
   SeparatedAs separated_as = SeparatedAs::neither;
   std::vector<NameInLathe> names_in_lathe = {};
-  std::string_view motion_beside = {};  ///< id: of a tilt about a point, the motion of that point
+  std::string_view motion_beside = {};  ///< id; for a tilt about a point, the motion of that point
 };
 
 /// A pattern of no cause, along the normal of the part or along X: cos, sin of
@@ -216,9 +216,9 @@ struct Pattern {
   double angle_rad = 0.0, position_mm = 0.0, width_rad = 0.0, length_mm = 0.0;  ///< of a bump
 };
 
-/// The one representation of a term beside the surface, from the search to JSON, lathe, correction
-/// and report: an effect of the catalogue with its shape, or a pattern; its linear amplitudes and
-/// their covariance once they are fitted.
+/// The one representation of a term next to the surface, from the search to JSON, lathe, correction
+/// and report. It is an effect of the catalogue with its shape, or a pattern. It has its linear
+/// amplitudes and their covariance once they are fitted.
 struct TermValue {
   const Effect* effect = nullptr;  ///< of a catalogue that outlives this; nullptr: a pattern
   TermShape shape;                 ///< of an effect
@@ -229,7 +229,7 @@ struct TermValue {
   std::vector<double> linear;
   Covariance covariance;  ///< of `linear`; empty: not fitted
 
-  /// Linear parameters of the effect; of a pattern those of cos and sin, or of the bump.
+  /// Linear parameters of the effect, or those of cos and sin or of the bump of a pattern.
   std::vector<LinearParameter> parameters() const;
   std::size_t columns() const;  ///< how many are free
   std::string id() const { return effect ? std::string(effect->id) : "unexplained"; }
@@ -238,8 +238,8 @@ struct TermValue {
 /// Whether the undulations per revolution are a parameter of the shape.
 bool has_free_order(const Effect& effect);
 
-/// The parameter that tells a linear or shape parameter; nullptr: it is told by its own name, or
-/// not at all.
+/// The parameter that states a linear or shape parameter; nullptr: one of its own name does, or
+/// none.
 const EffectParameter* parameter_for(const Effect& effect, std::string_view name);
 
 /// The parameter whose typical sizes are those of a linear one; nullptr: none.

@@ -12,7 +12,7 @@
 
 namespace trueaxis {
 
-/// The geometry of every reading, one entry each, as the ideal surface predicts it; lengths mm.
+/// The geometry of every reading, one entry each, as the ideal fit predicts it; lengths mm.
 /// Pass a block of the stream at a time: nothing here depends on the other readings. A face is
 /// probed along Z at (C, X): X below is then its Z, and Z its X.
 struct TermContext {
@@ -58,7 +58,7 @@ struct TermShape {
 };
 
 /// What a term's value moves. The derivative of the reading along it is the chain rule's other
-/// factor: of X, and of a face's Z.
+/// factor, for X and for a face's Z.
 enum class TermPort {
   x,       ///< machine X: 1; of a face −∂Z/∂X
   normal,  ///< the surface along its normal, away from the part's axis, of a face towards +Z: ∂X/∂ρ
@@ -173,7 +173,7 @@ void fill_columns(const EffectTerm& term, const TermContext& context, const Term
 std::vector<std::string> shape_parameters(const EffectTerm& term);
 
 /// Whether the term is a step at an instant: no value of its shape predicts another, and the part
-/// stands elsewhere afterwards.
+/// is elsewhere afterwards.
 bool is_step(const EffectTerm& term);
 
 /// Whether the term has two orders, the one twice the other: the lobes of jaws.

@@ -16,7 +16,7 @@ struct Diagnostic {
   std::string message;
 };
 
-/// "file:line:column: message", the parts that are 0 left out.
+/// "file:line:column: message", without the parts that are 0.
 std::string to_string(const Diagnostic& diagnostic);
 
 /// Bad input, thrown once after all diagnostics of the input are collected.

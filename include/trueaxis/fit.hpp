@@ -70,7 +70,7 @@ struct BudgetLine {
   std::vector<double> u;  ///< in the order and unit of FitResult::parameters
 };
 
-/// A set-up of the stream, and the part as it then stood.
+/// A set-up of the stream, and the part as it was then.
 struct SetUpFit {
   SetUp set_up;
   Root side = Root::front;               ///< as stated, or as the sign of X_M tells
@@ -88,7 +88,7 @@ struct FitResult {
   std::string message;                      ///< what is wrong and what to do, empty when converged
   std::vector<std::string> not_determined;  ///< combinations of parameters the data leave free
   std::vector<std::string> notes;           ///< what a user should know of numbers that may be used
-  /// What was taken of the stream's file that nothing says, and what of it was not used.
+  /// What was assumed that the stream's file does not state, and what of it was not used.
   std::vector<std::string> input_notes;
   std::optional<XConvention> x_convention;  ///< of the stream, where it was read from a file
   Loss loss = Loss::plain;

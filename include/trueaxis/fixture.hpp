@@ -17,7 +17,7 @@
 /// (X0W … C0W of docs/reference/machine.md) and a frame of a control.
 namespace trueaxis {
 
-/// The tip of a locator, in the frame of the part program as it stands in the fixture.
+/// The tip of a locator, in the frame of the part program in the fixture.
 struct Locator {
   Vector3 ideal_mm{};     ///< where it should be
   Vector3 measured_mm{};  ///< where it is
@@ -67,7 +67,7 @@ std::vector<DatumTrouble> datum_troubles(const DatumErrors& datums);
 struct PartSetup {
   RigidTransform fixture_from_part;  ///< D = Tr(X0W, Y0W, Z0W) exp(A0W, B0W, C0W)
   std::array<double, 6> errors{};    ///< X0W … C0W: mm, then the rotation vector in rad
-  /// Of `errors`: mm², mm rad, rad². Empty where no uncertainty is stated.
+  /// The covariance of `errors`: mm², mm rad, rad². Empty where no uncertainty is stated.
   Covariance covariance;
   bool converged = true;  ///< false: no numbers
 
@@ -98,7 +98,7 @@ PrintedLocation locate_as_printed(const Locators& locators);
 /// their order, or empty. @throws InputError where `datum_troubles` has any.
 PartSetup setup_of_datums(const DatumErrors& datums, const Covariance& covariance = {});
 
-/// Ezz, Ezx, Ezy, Eyy, Eyx, Eyz, Exx, Exy, Exz: of planes XY, ZX, YZ in turn.
+/// Ezz, Ezx, Ezy, Eyy, Eyx, Eyz, Exx, Exy, Exz: for planes XY, ZX, YZ in turn.
 inline constexpr std::array<const char*, 9> datum_error_names{"Ezz", "Ezx", "Ezy", "Eyy", "Eyx",
                                                               "Eyz", "Exx", "Exy", "Exz"};
 double& datum_error(DatumErrors& datums, std::string_view name);

@@ -46,7 +46,7 @@ struct FormOptions {
   bool bore = false;
   double ball_radius_mm = 0.0;            ///< 0: the stream's
   std::optional<double> noise_mm;         ///< standard deviation of a reading; else as it shows
-  std::vector<SpindleOrder> spindle{};    ///< known motion: taken off, its u counts
+  std::vector<SpindleOrder> spindle{};    ///< known motion: subtracted, its u counts
   double spindle_range_mm = 0.0;          ///< range of a motion that is not known by its orders
   Criterion datum = Criterion::gaussian;  ///< of the datum's circle or cylinder
   double coverage_factor = 2.0;
@@ -64,12 +64,12 @@ struct FormValue {
   std::string name;       ///< "RONt", "CYLt", "eccentricity" …
   std::string reference;  ///< "LSCI" …: what it is about; empty: it needs none
   Estimate estimate;      ///< value and u, in mm (slopes: mm per rad)
-  double bias_mm = 0.0;   ///< by how much noise makes it larger on average; in u, not taken off
+  double bias_mm = 0.0;   ///< by how much noise makes it larger on average; in u, not subtracted
   /// Nothing beyond the noise: no value, and the interval ends at its 95 % bound.
   bool unresolved = false;
 };
 
-/// Ends of the interval value ± k u, or of the bounds that stand in the place of a value.
+/// Ends of the interval value ± k u, or of the bounds in place of a value.
 double least_of(const FormValue& value, double k);
 double most_of(const FormValue& value, double k);
 /// The value, or the upper bound in its place: by it sections are ranked.
@@ -145,7 +145,7 @@ struct FormResult {
   std::string source, input_hash, datum_source;
 };
 
-/// What was taken off the readings before: by how much these may be off (theory.md, Eq. 291).
+/// What was subtracted from the readings before: by how much these may be off (theory.md, Eq. 291).
 struct TakenOff {
   std::span<const std::vector<double>> columns_mm;  ///< of one u of each amplitude, every reading's
   std::span<const double> correlation;              ///< of the amplitudes, row-major
@@ -161,9 +161,9 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& options = {
                        const ProbeStream* datum = nullptr,
                        std::span<const TakenOff> taken_off = {});
 
-/// The highest cut-off (UPR) that every section of a lateral stream carries by 7 readings a wave
-/// (ISO 12181-2), 500 at most, or the angles of all readings of a surface, 50 at most; below 2 no
-/// filter can be had. @throws InputError as assess_form
+/// The highest cut-off (UPR) that every section of a lateral stream carries by 7 readings per wave
+/// (ISO 12181-2), 500 at most. For a surface it is what the angles of all readings carry, 50 at
+/// most. Below 2 no filter is possible. @throws InputError as assess_form
 int carried_upr(const ProbeStream& stream, const FormOptions& options = {});
 
 /// The same of points x y z (mm) of a line, circle, plane or cylinder, in any orientation. Sections

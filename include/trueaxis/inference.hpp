@@ -28,12 +28,12 @@ struct Separating {
   std::vector<Other> others;  ///< fastest first
 };
 
-/// A cause that explains a finding as well, or nearly.
+/// A cause that fits the readings as well as the named one, or nearly.
 struct Rival {
   std::string effect;     ///< id
-  double distance = 0.0;  ///< d of the finding's prediction from the rival's best fit, in σ
+  double distance = 0.0;  ///< d of the named cause's prediction from this one's best fit, in σ
   double likelihood_ratio = 0.0;  ///< 2 ln(L_finding/L_rival), parameters paid for
-  double probability = 0.0;       ///< of the rival, among the class
+  double probability = 0.0;       ///< of this cause, among the class
   bool structural = false;        ///< canonical correlation above 0.999: no amount of data helps
 };
 
@@ -46,7 +46,7 @@ struct NamedFinding {
   double rms_mm = 0.0;        ///< of its contribution to the readings
   std::optional<Separating> separate_with;  ///< for a class of more than one
 
-  /// The class: every id that explains it as well, the name first.
+  /// The class: every id that fits the readings equally well, the name first.
   std::vector<std::string> members_beside(std::string_view name) const;
 };
 
@@ -77,7 +77,7 @@ struct Interval {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
-/// What the findings explain of the readings, and of blocks of them that were left out in turn.
+/// What the causes explain of the readings, and of blocks of them that were excluded in turn.
 struct Explained {
   double rms_before_mm = 0.0, rms_after_mm = 0.0;
   Interval held_out_before_mm, held_out_after_mm;  ///< RMS
@@ -90,10 +90,10 @@ const char* to_string(DiagnosisVerdict verdict);
 /// @param unexplained whether a pattern is that no effect explains
 DiagnosisVerdict verdict_of(bool found, bool unexplained);
 
-/// What a diagnosis concludes beside its findings.
+/// What a diagnosis concludes in addition to its causes.
 struct Conclusion {
   DiagnosisVerdict verdict = DiagnosisVerdict::ideal;
-  std::vector<std::string> remarks;  ///< what might be taken for an effect and is none
+  std::vector<std::string> remarks;  ///< what might be mistaken for an effect
   std::vector<QualityCheck> checks;
   double false_alarm = 0.01;          ///< family-wise level of the verdict
   std::size_t hypotheses = 0;         ///< tried one by one

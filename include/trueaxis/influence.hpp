@@ -15,8 +15,8 @@ struct Influence {
     c_offset,        ///< spindle angle datum, rad
     z_offset,        ///< Z datum, mm
     ball_radius,     ///< radius of the probe's ball, mm
-    probe_tilt,      ///< of the probe line towards Z, rad; of a diagnosis alone, as what follows
-    probe_delay,     ///< of X behind C and Z, s
+    probe_tilt,      ///< of the probe line towards Z, rad; for diagnoses only, as are the next
+    probe_delay,     ///< of X after C and Z, s
     probe_lag,       ///< time constant of the probe, s
     xz_parallelism,  ///< of the Z slide and the spindle in X, rad
   } kind;

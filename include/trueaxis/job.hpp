@@ -28,8 +28,8 @@ struct JobReference {
   double weight = 1.0;
   double face_radius_mm = 0.0;  ///< plane: radius at which its tilt counts; 0: the largest X probed
   FormTask form{};              ///< tolerances of its form and how it is filtered
-  /// Of the axis that a cut is about, as ISO 5459 associates a datum; none: least squares along the
-  /// probe line.
+  /// How ISO 5459 associates the axis that a cut is about; none: least squares along the probe
+  /// line.
   std::optional<Criterion> association{};
 };
 
@@ -38,7 +38,7 @@ struct JobReference {
 enum class AxisOfCut {
   stated,  ///< the average over what may have caused the readings
   named,   ///< were all causes those that are named
-  ideal    ///< of the ideal surface, were there no cause
+  ideal    ///< of the ideal fit, as if there were no cause
 };
 
 const char* to_string(AxisOfCut axis);
@@ -68,10 +68,10 @@ struct Job {
   std::vector<std::string> include;
   AxisOfCut axis_of_cut = AxisOfCut::stated;
   DatumSystem datums{};
-  std::vector<ControlTable> outputs{};  ///< files for controls, beside the table
+  std::vector<ControlTable> outputs{};  ///< files for controls, in addition to the table
   JobHeader header{};
-  /// Roundness and cylindricity of each reference beside its axis; false: a study of many jobs
-  /// needs none, and `forms` stays empty where no tolerance asks for them.
+  /// Roundness and cylindricity of each reference in addition to its axis; false: a study of many
+  /// jobs needs none, and `forms` stays empty where no tolerance asks for them.
   bool values_of_form = true;
 };
 
@@ -85,7 +85,7 @@ struct Inclusion {
   std::string reference;  ///< where it was found; empty: nowhere
   bool included = false;
   bool refused = false;         ///< found, but it must not be cut with: then there is no go
-  std::optional<Reason> why{};  ///< why it is not included; of an included one what is left open
+  std::optional<Reason> why{};  ///< why it is not included, or what remains open of an included one
 };
 
 /// Two references whose axes are apart by more than their uncertainty: half-way between their
@@ -98,7 +98,7 @@ struct Disagreement {
   double p_value = 1.0;     ///< that the readings' noise alone sets them as far apart
 };
 
-/// The references held against each other. Surfaces of real parts are not quite coaxial, so a
+/// The references compared with each other. Surfaces of real parts are not quite coaxial, so a
 /// disagreement alone is ordinary: a reason is what a mistake in a stream or job, tried on the
 /// data, explains, or a disagreement that no part has.
 struct Agreement {
@@ -107,7 +107,7 @@ struct Agreement {
   double odds = 0.0;  ///< of the mistake that is named against none, of equal odds before
 };
 
-/// Of a go, that the part is out of tolerance all the same (ISO 14253-1): 5 %.
+/// The probability that a part with a go is out of tolerance (ISO 14253-1): 5 %.
 inline constexpr double nonconformity_risk = 0.05;
 
 /// What may be done with the result.
@@ -138,7 +138,7 @@ struct CutNumbers {
   double coaxiality_after_mm =
       0.0;  ///< expected with `file`: what the compromise, the actuator and the file leave
   double u_coaxiality_mm = 0.0;  ///< of the worst reference's axis in its worse direction, doubled
-  double lower_mm = 0.0, upper_mm = 0.0;  ///< that the coaxiality is below in 5 and in 95 of 100
+  double lower_mm = 0.0, upper_mm = 0.0;  ///< the coaxiality is below with 5 % and 95 %
   double coverage_factor = 2.0;  ///< of U in fits; the decision's risk is 5 % whatever it is
 };
 
@@ -162,16 +162,16 @@ const char* to_string(Decision decision);
 struct TargetDatum {
   std::string name;  ///< "A-B | C"
   double z_ref_mm = 0.0;
-  /// Of each reference: the datum's axis by its own, both at z_ref.
+  /// One per reference: the datum's axis by its own, both at z_ref.
   std::vector<AxisMatrix> shares;
-  std::vector<Remainder> references;  ///< what is left at each reference, which nothing judges
+  std::vector<Remainder> references;  ///< residual at each reference, which nothing judges
 };
 
 /// What the readings tell of the references: the input of all that follows.
 struct IdentifiedJob {
   Job job;
   std::vector<ProbeStream> streams;  ///< one per reference
-  std::vector<FitResult> fits;       ///< one per reference: the ideal surface
+  std::vector<FitResult> fits;       ///< one per reference: the ideal fit
   Agreement agreement;
   /// One per reference; none for a face, which is not diagnosed, and where a fit failed.
   std::vector<std::optional<Diagnosis>> diagnoses;
@@ -181,7 +181,7 @@ struct IdentifiedJob {
 
 /// The cut that follows from it, unless something forbids to compute one.
 struct PlannedJob : IdentifiedJob {
-  /// Of each reference whose job says an `association`, how far its axis is off least squares.
+  /// One per reference: if the job states an `association`, how far its axis is off least squares.
   std::vector<std::optional<AxisEstimate>> associated{};
   std::optional<TargetDatum> datum{};  ///< of a job that names `datums`
   std::vector<Inclusion> inclusions{};
@@ -193,25 +193,25 @@ struct PlannedJob : IdentifiedJob {
 
 struct JobResult : PlannedJob {
   std::vector<PartForm> forms{};  ///< one per reference
-  /// Of each reference, what other associations would give; empty where there are none.
+  /// One per reference: what other associations would give; empty without any.
   std::vector<std::vector<DatumAxis>> datum_axes{};
   Verdict verdict{};
-  /// Of each reference, why its axis is withheld from its fits: `why_not` there is the code.
+  /// One per reference: why its axis is withheld from its fits; `why_not` there is the code.
   std::vector<std::optional<Reason>> axis_unknown{};
 };
 
-/// The fit whose axis the correction takes: that of the extended model where the diagnosis found
-/// something and it converged, else that of the ideal surface.
+/// The fit whose axis the correction uses: the final one if the diagnosis found something and
+/// converged, else the ideal fit.
 const FitResult& fit_used(const IdentifiedJob& job, std::size_t reference);
 
 /// Whether every tolerance of form is proven met. The verdict is of the cut and does not hold them.
 bool forms_met(const JobResult& result);
 
 /// Fit, diagnosis, form, the diagnosed measured again by the virtual lathe, target axis,
-/// correction, and the verdict, which is final. `streams` are one per reference. Where the cut
-/// is refused (a tool that does not meet the target), the reason is the verdict's and nothing is
-/// thrown.
-/// @throws InputError as fit() does, and when the target lies on the probed length of a reference
+/// correction, and the verdict, which is final. `streams` are one per reference. If the cut is
+/// refused (a tool that does not meet the target), the verdict has the reason and nothing is
+/// thrown. @throws InputError as fit() does, and when the target lies on the probed length of a
+/// reference
 ///         and the job does not say its stock; that diagnostic names no file.
 JobResult run_job(Job job, std::vector<ProbeStream> streams);
 

@@ -15,10 +15,10 @@
 #include "trueaxis/covariance.hpp"
 #include "trueaxis/units.hpp"
 
-/// A machine of three to six axes as a chain from the workpiece to the tool, the errors of its
-/// axes, where the tool then is in the part, and the axis positions that put it where it should be
-/// (machine.md). Inside mm and rad. M is a frame fixed to the bed; with all axes at 0 (zero
-/// position) the frames of all bodies coincide with M.
+/// A machine of three to six axes as a chain from the workpiece to the tool, and the errors of its
+/// axes (machine.md). From these follow where the tool is in the part, and the axis positions that
+/// put it where it should be. Inside mm and rad. M is a frame fixed to the bed; with all axes at 0
+/// (zero position) the frames of all bodies coincide with M.
 namespace trueaxis {
 
 using Vector3 = std::array<double, 3>;
@@ -76,7 +76,7 @@ enum class ProgramMode {
 
 struct Machine {
   std::string name;
-  std::string chain;              ///< as it was said, "w C' A' Y' b X Z t"
+  std::string chain;              ///< as it was given, "w C' A' Y' b X Z t"
   std::vector<MachineAxis> axes;  ///< from the workpiece to the tool, without the bed
   MachineTool tool;
   std::map<int, double> tool_lengths_mm;                                  ///< by the number T
@@ -90,7 +90,7 @@ struct Machine {
   std::size_t rotary_count() const;
 };
 
-/// One part of a chain's text that is wrong, with the character (from 0) at which it stands.
+/// One part of a chain's text that is wrong, with the character (from 0) at which it begins.
 struct ChainTrouble {
   std::size_t at = 0;
   std::string message;
@@ -102,7 +102,7 @@ struct ChainTrouble {
 /// added to `troubles`.
 std::vector<MachineAxis> parse_chain(std::string_view chain, std::vector<ChainTrouble>& troubles);
 
-/// Of which body an error is: an axis (by `index_of`), the spindle or the workpiece.
+/// The body that an error belongs to: an axis (by `index_of`), the spindle or the workpiece.
 inline constexpr std::size_t spindle_body = 6, workpiece_body = 7, body_count = 8;
 
 /// EXX … ECC (component errors, functions of the commanded position of the axis that is the last
@@ -118,8 +118,8 @@ struct ErrorName {
 std::string to_string(const ErrorName& name);
 std::optional<ErrorName> parse_error_name(std::string_view text);
 
-/// Of a linear axis, what moves its line along itself or turns it about itself (Y0X, A0X): it has
-/// no effect.
+/// An error that moves the line of a linear axis along itself or turns it about itself (Y0X, A0X):
+/// it has no effect.
 bool without_effect(const ErrorName& name);
 
 // The kinds of error: a value (mm or rad) as a function of the position q (mm or rad) of an axis.
@@ -187,7 +187,7 @@ struct ErrorModel {
   ErrorSign sign = ErrorSign::moving_part;
   std::array<Vector3, 3> reference_mm{};  ///< of X Y Z: pivot of their angular errors, in M
   std::vector<ErrorTerm> terms;           ///< those of one name add
-  ErrorCovariance covariance;  ///< beside the u of terms: u of a constant stands in one of the two
+  ErrorCovariance covariance;  ///< in addition to u of terms: u of a constant is in one of the two
 
   double value(const ErrorName& name, const AxisPositions& axes) const;
 };
@@ -208,7 +208,7 @@ struct ToolPose {
   Matrix3 rotation{};   ///< part_from_tool; identity in the zero position where W0 is not turned
 };
 
-/// A small displacement of the tool in the part: of the tip, and the rotation vector.
+/// A small displacement of the tool in the part: the tip's, and the rotation vector.
 struct ToolDisplacement {
   Vector3 tip_mm{};
   Vector3 rotation_rad{};
@@ -232,8 +232,8 @@ using ToolJacobian = std::array<ToolDisplacement, axis_count>;
 /// it. A copy is cheap and shares what it holds.
 class MachineModel {
  public:
-  /// @throws InputError for errors of an axis that the machine has not, and for those without
-  ///         effect that are not 0.
+  /// @throws InputError for errors of an axis that the machine does not have, and for those without
+  /// effect that are not 0.
   explicit MachineModel(const Machine& machine, const ErrorModel& errors = {});
 
   const Machine& machine() const;
@@ -242,7 +242,7 @@ class MachineModel {
   ToolPose nominal(const AxisPositions& axes, const Setting& setting) const;
   ToolPose actual(const AxisPositions& axes, const Setting& setting) const;
 
-  /// Of the nominal chain, by the product of exponentials.
+  /// For the nominal chain, by the product of exponentials.
   ToolJacobian jacobian(const AxisPositions& axes, const Setting& setting) const;
   /// What the errors do at commanded `axes`, linear in all of them (their total differential): L.
   ToolDisplacement linear_error(const AxisPositions& axes, const Setting& setting) const;
@@ -267,9 +267,9 @@ struct InverseKinematics {
 };
 
 /// Every solution within the limits, a rotary axis in every turn that its limits allow (without
-/// limits: in the nearest one); first the one whose rotary axes are nearest to `near`. Where an
-/// axis may stand anywhere (a pole) it stays as `near` has it; of three rotary axes the one next to
-/// the workpiece does.
+/// limits: in the nearest one); first the one whose rotary axes are nearest to `near`. If an axis
+/// may be anywhere (a pole), it stays as `near` has it; of three rotary axes the one next to the
+/// workpiece does.
 InverseKinematics axes_for(const MachineModel& model, const ToolTarget& target,
                            const AxisPositions& near, const Setting& setting);
 
@@ -290,8 +290,8 @@ struct CompensatedPosition {
   CompensationStatus status = CompensationStatus::compensated;
   double tip_left_mm = 0.0;          ///< distance of the actual tip from the nominal one
   double direction_left_rad = 0.0;   ///< angle between the directions
-  double about_tool_axis_rad = 0.0;  ///< what is left about the tool's own axis
-  std::string why;                   ///< outside, unreachable: of which axis, by how much
+  double about_tool_axis_rad = 0.0;  ///< residual about the tool's own axis
+  std::string why;                   ///< outside, unreachable: which axis, by how much
 };
 
 /// Axis positions at which the actual machine has the tip and direction that the nominal one has at

@@ -37,7 +37,7 @@ struct ErrorOfSense {
 struct TipDrift {
   std::size_t direction = 0;
 };
-/// A ball that stands elsewhere on the workpiece's body from a row on.
+/// A ball that is elsewhere on the workpiece's body from a row on.
 struct BallStep {};
 /// How an effect is computed; monostate: it is not.
 using MachineTerm = std::variant<std::monostate, ErrorOfPosition, ErrorOfSense, TipDrift, BallStep>;
@@ -79,7 +79,7 @@ struct MachineFinding : NamedFinding {
 
 struct MachineUnexplained : UnnamedPattern {
   std::string pattern;           ///< in words
-  bool may_have_a_name = false;  ///< it has the form of an effect, beside something unknown
+  bool may_have_a_name = false;  ///< it has the form of an effect, together with something unknown
   std::vector<CalibratedParameter> parameters{};
   Covariance covariance{};  ///< of `parameters`
 };
@@ -106,7 +106,7 @@ struct MachinePlan {
   std::string what;
   double minutes = 0.0;
   std::vector<std::string> shows;      ///< effects that are not observable without it
-  std::vector<std::string> separates;  ///< findings whose class it tells apart
+  std::vector<std::string> separates;  ///< causes whose class it tells apart
   MeasurementKind kind = MeasurementKind::ball;
   std::vector<PlannedVisit> visits;  ///< in order
   Covariance covariance;             ///< of `MachineDiagnosis::uncertain` with it
@@ -121,9 +121,9 @@ struct UncertainParameter {
 
 struct MachineDiagnosis : Conclusion {
   Calibration baseline;                       ///< what is always fitted
-  std::vector<CalibratedParameter> extended;  ///< its parameters beside all findings
-  /// To predict the tip with: given, always fitted and found together; where something is
-  /// unexplained those of `calibrate` instead, which count what they do not fit.
+  std::vector<CalibratedParameter> extended;  ///< its parameters together with all causes
+  /// To predict the tip with: given, always fitted and found together. If something is unexplained,
+  /// those of `calibrate` instead, which count what they do not fit.
   ErrorModel errors;
   std::vector<MachineFinding> findings;  ///< the most significant first
   std::vector<MachineUnexplained> unexplained;
@@ -134,7 +134,7 @@ struct MachineDiagnosis : Conclusion {
   std::string next_plan;  ///< the one to take next; empty: none is needed
   double noise_mm = 0.0;  ///< σ of one number as the residuals show it
   Explained gain;
-  std::size_t blocks = 0;                                   ///< of rotary positions, left out
+  std::size_t blocks = 0;  ///< of rotary positions, excluded in turn
   double typical_length_mm = 0.0, typical_angle_rad = 0.0;  ///< what was looked for
   /// Location errors, what was found and what these rows do not show, with their covariance after
   /// the measurement (Eq. 189); only where `covariances` is asked for.
@@ -152,17 +152,17 @@ struct MachineDiagnoseOptions {
   double typical_length_mm = 0.01, typical_angle_rad = 50e-6;  ///< that must be seen
   double planned_noise_mm = 1e-3;                              ///< σ of a reading of a first plan
   bool covariances = false;  ///< of what a program's tip depends on, with every plan
-  /// Effects beside the catalogue that may be found too, ids of their own.
+  /// Further effects that may be found, with ids that the catalogue does not have.
   std::span<const MachineEffect> own_effects = {};
 };
 
-/// Every effect is tested beside what is always fitted (places, location errors): an exact F test
-/// with Bonferroni's correction (Eqs. 178-187). @throws InputError as `calibrate`
+/// Tests every effect in addition to what is always fitted (places, location errors): an exact F
+/// test with Bonferroni's correction (Eqs. 178-187). @throws InputError as `calibrate`
 MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const MachineMeasurement> data,
                                   const MachineDiagnoseOptions& options = {});
 
-/// The plan of a machine that was not measured yet: a ball at a grid of rotary positions and back
-/// (plan B1, readings of the planned noise), what it does not show, and what would. @throws
+/// The plan for a machine that was not measured yet, what it does not show, and what would. It is a
+/// ball at a grid of rotary positions and back (plan B1, readings of the planned noise). @throws
 /// InputError for a machine without a rotary axis or three linear ones
 MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptions& options = {});
 

@@ -47,8 +47,8 @@ struct AxisRange {
   std::optional<std::array<double, 2>> program;
 };
 
-/// Displacement of all tips as of one rigid body: of the part that stands elsewhere. A measurement
-/// of balls does not tell it, as their places are unknown; who probes the part finds it.
+/// Displacement of all tips as one rigid body: of a part that is elsewhere. A measurement of balls
+/// does not tell it, as their places are unknown; who probes the part finds it.
 struct PartDisplacement {
   Vector3 about_mm{};  ///< of the workpiece's body, M in the zero position
   Vector3 shift_mm{}, turn_rad{};
@@ -69,7 +69,7 @@ struct ErrorMap {
   AxisPositions at{};
   std::vector<double> across_positions, up_positions;  ///< mm or rad
   std::vector<double> before_mm;                       ///< by rows of `up`
-  std::vector<double> after_mm;                        ///< at most, in 95 of 100; NaN: out of reach
+  std::vector<double> after_mm;  ///< at most (95 % confidence); NaN: out of reach
 };
 
 struct MachineJobVerdict {
@@ -84,7 +84,7 @@ struct MachineJobVerdict {
   std::size_t between_before_line = 0;
   double U_mm = 0.0;                      ///< of the tip, k = 2, largest
   double not_corrected_mm = 0.0;          ///< what was found and no program can correct
-  double lower_mm = 0.0, upper_mm = 0.0;  ///< that the tip is off by in 5 and in 95 of 100
+  double lower_mm = 0.0, upper_mm = 0.0;  ///< the tip is off by less with 5 % and 95 %
 
   /// On the whole path, ends of blocks and between them.
   double path_before_mm() const { return std::max(before_mm, between_before_mm); }
@@ -102,7 +102,7 @@ struct MachineJobResult {
   std::optional<PartDisplacement> part;  ///< of the program as it was read
   std::vector<ProgramTip> tips;
   std::vector<ErrorMap> maps;
-  Reasons remarks;  ///< what holds for the numbers, and what they leave out
+  Reasons remarks;  ///< what holds for the numbers, and what they do not contain
   MachineJobVerdict verdict;
 };
 

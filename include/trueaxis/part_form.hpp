@@ -35,7 +35,7 @@ inline constexpr const char* spindle_axis = "spindle axis";
 enum class Conformity { met, not_met, not_proven, not_judged };
 const char* to_string(Conformity conformity);
 
-/// A tolerance of form held against what the readings show of the part.
+/// A tolerance of form compared with what the readings show of the part.
 struct FormJudgement {
   std::string what;       ///< "roundness", "cylindricity", "run-out"
   std::string parameter;  ///< "RONt" …
@@ -49,11 +49,11 @@ struct FormJudgement {
 /// The form of one reference. Between `with_open` and `without_open` lies that of the part.
 struct PartForm {
   FormResult probed;                        ///< of the readings as they are
-  std::vector<std::string> motion;          ///< ids of findings that are not of the part: taken off
+  std::vector<std::string> motion;          ///< ids of causes that are not of the part: subtracted
   std::vector<std::string> open;            ///< of which the readings do not tell whether they are
   std::optional<FormResult> less_motion{};  ///< none: there is no `motion`
   std::optional<FormResult> less_open{};    ///< less both; none: there is no `open`
-  std::size_t left_out = 0;                 ///< readings that the diagnosis left out
+  std::size_t left_out = 0;                 ///< readings that the diagnosis excluded
   int carried_upr = 0;                      ///< by 7 readings a wave
   std::string why_not{};                    ///< why there is no value at all; else empty
   std::vector<FormJudgement> judgements{};
@@ -62,7 +62,7 @@ struct PartForm {
   const FormResult& with_open() const { return less_motion ? *less_motion : probed; }
   /// Were none of it.
   const FormResult& without_open() const { return less_open ? *less_open : with_open(); }
-  bool met() const;  ///< every tolerance; true where there is none
+  bool met() const;  ///< every tolerance; true without any
 };
 
 /// A stream with its diagnosis.
@@ -71,9 +71,9 @@ struct DiagnosedStream {
   const Diagnosis* diagnosis = nullptr;  ///< none: readings are taken as they are
 };
 
-/// The form of the part. U holds noise as the diagnosis has it, the ball, and what the terms taken
-/// off are uncertain by (Eqs. 290, 291). What cannot be had is said, not thrown.
-/// @param datum of run-out; none: about the spindle axis
+/// The form of the part. U holds noise as the diagnosis has it, the ball, and the uncertainty of
+/// the subtracted terms (Eqs. 290, 291). A value that is not possible has its reason; nothing is
+/// thrown. @param datum of run-out; none: about the spindle axis
 PartForm part_form(const DiagnosedStream& part, const FitOptions& fit, const FormTask& task,
                    const DiagnosedStream* datum = nullptr);
 

@@ -14,13 +14,13 @@ namespace trueaxis {
 struct SetUp {
   int number = 1;            ///< as in the column `setup`
   double reindex_rad = 0.0;  ///< the part turned about its own axis in the sense of C, as the
-                             ///< spindle turns it: a mark at C = 10° then stands at 10° − this
+                             ///< spindle turns it: a mark at C = 10° is then at 10° − this
   double z_shift_mm = 0.0;   ///< the part moved along Z
   bool rear = false;         ///< probed at the smaller X
   double x_jog_mm = 0.0;     ///< slide moved in X, sensor and machine still adding up to X_M
   double clamp_force_ratio = 1.0;  ///< over the force of the first clamping
 
-  /// Whether the part stands in the chuck as in `other`: side and jog do not move the part.
+  /// Whether the part is in the chuck as in `other`: side and jog do not move the part.
   bool clamped_as(const SetUp& other) const {
     return reindex_rad == other.reindex_rad && z_shift_mm == other.z_shift_mm &&
            clamp_force_ratio == other.clamp_force_ratio;
@@ -43,7 +43,7 @@ enum class Indication {
   relative,  ///< a gauge: X_M up to an unknown constant; a nominal radius is needed
 };
 
-/// Who said whether the X of a file is a radius or a diameter.
+/// The source that states whether the X of a file is a radius or a diameter.
 enum class SaidBy { nobody, stream, option, job };
 
 /// What the X of a file (X_M, or X of a face) was taken as. In a ProbeStream it is a radius always.
@@ -71,7 +71,7 @@ struct ProbeStream {
   /// Several sensors of one recording (X_M1, X_M2 …): `reading_mm` is of the first, these are of
   /// the others at the same instants. Such a stream belongs to separate_spindle() (spindle.hpp).
   std::vector<std::vector<double>> more_reading_mm;
-  /// Where each sensor stands, the first included, from +X towards +Y; each reads outwards from the
+  /// The angle of each sensor, the first included, from +X towards +Y; each reads outwards from the
   /// spindle axis. Empty for a stream of the one sensor X_M at +X.
   std::vector<double> sensor_angles_rad;
 
@@ -89,7 +89,7 @@ struct ProbeStream {
   /// Of a stream that was read from a file.
   std::optional<XConvention> x_convention;
 
-  /// Of a stream that was made of another program's recording: how, in sentences.
+  /// How the stream was made of another program's recording, in sentences.
   std::vector<std::string> read_as;
 
   std::string source;      ///< file name, or "-" for standard input

@@ -30,13 +30,13 @@ struct ProgramHarm {
   std::string file;
   std::size_t blocks = 0;                ///< that cut; of a program without any those that travel
   std::vector<EffectOnProgram> effects;  ///< the largest first
-  LargestInProgram U;  ///< of the tip, k = 2, beside the part's datum; without data before any
+  LargestInProgram U;  ///< of the tip, k = 2, without the part's datum; without data before any
   double coverage_factor = 2.0;
   std::vector<PlanOnProgram> plans;
 };
 
 /// The harm of a program by a diagnosis with `covariances`; its `next_plan` becomes that which
-/// lowers U most a minute (Eqs. 189, 190). A plan B1 that stands first stays the next.
+/// lowers U most a minute (Eqs. 189, 190). A plan B1 that is first stays the next.
 /// @throws InputError as `compensate_program`
 ProgramHarm weigh_on_program(const Machine& machine, MachineDiagnosis& diagnosis, std::string text,
                              const std::string& file);

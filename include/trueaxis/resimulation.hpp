@@ -11,8 +11,8 @@
 
 namespace trueaxis {
 
-/// Noise-free readings of a simulation with the ideal surface (before) and with the extended model
-/// (after) at the arguments of a measured stream, one a reading, mm.
+/// Noise-free readings of a simulation with the ideal fit (before) and with what was found (after)
+/// at the arguments of a measured stream, one per reading, mm.
 struct SimulatedReadings {
   std::vector<double> before_mm, after_mm;
 };
@@ -20,7 +20,7 @@ struct SimulatedReadings {
 /// How far a simulation is from what was measured.
 struct Discrepancy {
   double rms_mm = 0.0;  ///< of measured − simulated
-  double share = 0.0;   ///< its variance over that of measured − ideal surface
+  double share = 0.0;   ///< its variance over that of measured − ideal fit
 };
 
 /// Measured against simulated, before and after. Readings that are masked do not count.
@@ -45,10 +45,9 @@ struct Resimulation {
   std::string why_not;  ///< not empty: there is none, for this reason
 };
 
-/// Measures the part of a diagnosis again at the arguments of its stream: the ideal surface as
-/// first fitted, and the extended model with all that was found. What the virtual lathe cannot play
-/// is data: see Resimulation::why_not.
-/// @param ball_radius_mm as given to the diagnosis; 0: what the stream says
+/// Measures the part of a diagnosis again at the arguments of its stream: the ideal fit, and the
+/// final surface with all that was found. What the virtual lathe cannot play is data: see
+/// Resimulation::why_not. @param ball_radius_mm as given to the diagnosis; 0: what the stream says
 Resimulation resimulate(const Diagnosis& diagnosis, const ProbeStream& measured,
                         double ball_radius_mm = 0.0);
 
@@ -59,12 +58,12 @@ Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulat
                    const std::vector<bool>& masked, double sigma_mm,
                    const std::vector<double>& autoregression = {});
 
-/// Whether the findings are refuted: more is left with them than without (λ > ½), and by more than
-/// chance. Both differences hold the same noise; were the findings right, λ would be 0 with the
-/// standard uncertainty u. Beyond chance is λ > 2.33 u, 1 % on one side: the C test of Davidson &
-/// MacKinnon, Econometrica 49 (1981) 781, of two models that do not contain each other. That alone
-/// would refute too much: linearised terms move λ of a right finding (a nonlinearity of 20 µm:
-/// 0.2) (Eq. 105).
+/// Whether the causes are refuted: more is left with them than without (λ > ½), and the difference
+/// is significant (λ > 2.33 u, 1 % on one side). Both differences hold the same noise; for right
+/// causes λ is 0 with the standard uncertainty u. This is the C test of Davidson & MacKinnon,
+/// Econometrica 49 (1981) 781, of two models that do not contain each other. Significance alone
+/// would refute too much: linearised terms move λ of a right cause (a nonlinearity of 20 µm: 0.2)
+/// (Eq. 105).
 bool refuted(const Comparison& comparison);
 
 }  // namespace trueaxis

@@ -10,15 +10,15 @@
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/units.hpp"
 
-/// Form of the part and error motion of the spindle, separated by several sensors at known angles,
-/// by reversal (Donaldson 1972), by re-indexed set-ups, or by all of these in one estimate
-/// (theory.md §22). Inside mm and rad; an order is a number of undulations per revolution.
+/// Form of the part and error motion of the spindle (theory.md §22). Several sensors at known
+/// angles, reversal (Donaldson 1972), re-indexed set-ups, or all of these in one estimate separate
+/// them. Inside mm and rad; an order is a number of undulations per revolution.
 namespace trueaxis {
 
 struct SpindleOptions {
   int order_max = 100;  ///< orders 2 … order_max are separated, as far as the readings carry them
-  /// The direction in which the tool feels the motion, from +X towards +Y. Unless stated: X, or
-  /// the line of the sensors where they all stand on one.
+  /// The direction in which the tool feels the motion, from +X towards +Y. Unless stated: X, or the
+  /// line of the sensors if they are all on one.
   std::optional<double> sensitive_rad;
   double u_angle_rad = 0.0;         ///< standard uncertainty of each sensor's angle
   double u_reindex_rad = 0.0;       ///< of the angle of each re-indexing
@@ -58,7 +58,7 @@ struct MotionValues {
 struct SpindleRun {
   std::string stream;
   int setup = 1;
-  std::size_t sensors = 1, readings = 0, left_out = 0;  ///< left out: far from all others
+  std::size_t sensors = 1, readings = 0, left_out = 0;  ///< excluded: far from all others
   double turns = 0.0, readings_per_turn = 0.0;
   double asynchronous_rms_mm = 0.0;     ///< of what does not repeat with C, mean over the sensors
   Estimate eccentricity;                ///< of the part, mm; with the fundamental motion in it
@@ -79,7 +79,7 @@ struct ErrorMotion {
   std::vector<SeparatedOrder> orders;
   MotionValues sensitive, across;
   Estimate form;  ///< roundness of the part about its least-squares circle (axial: of its face)
-  Estimate fundamental, residual;  ///< axial: once per turn, and the other whole orders
+  Estimate fundamental, residual;  ///< axial: once per revolution, and the other whole orders
   std::vector<SpindleRun> runs;
   double disagreement =
       1.0;  ///< χ²/ν of sensors and set-ups against each other; NaN: none to spare

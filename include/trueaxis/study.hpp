@@ -34,8 +34,7 @@ struct Spread {
 };
 
 /// Probes a scenario again and again with other noise and fits each stream: bias and spread of all
-/// quantities beside their bound.
-/// @throws InputError when the scenario contradicts itself
+/// quantities with their bound. @throws InputError when the scenario contradicts itself
 std::vector<Spread> repeat(const virtual_lathe::Scenario& scenario, const RepeatOptions& options);
 
 }  // namespace trueaxis::study

@@ -80,15 +80,14 @@ enum class Root {
   rear
 };  ///< front: the larger X, where a tool in front works; rear: the smaller
 
-/// Exact intersection at spindle angle C and height Z of the line Y = height parallel to X
-/// (the quadratic of theory.md, Eq. 7, with K = 1 + tan²(half angle), no tilt of the line).
-/// Eqs. 5–9.
+/// Exact intersection at spindle angle C and height Z of the line Y = height parallel to X. This is
+/// the quadratic of theory.md, Eq. 7, with K = 1 + tan²(half angle), no tilt of the line. Eqs. 5–9.
 Intersection intersect(const Revolved& surface, double c_rad, double z_mm, double height_mm = 0.0,
                        Root root = Root::front);
 
 /// A surface of revolution of one's own: the radius over the height along an axis, with up to
-/// `most` parameters. fit() associates it with a stream together with its axis, so the result
-/// has x0, y0, l, m and then the profile's parameters:
+/// `most` parameters. The function fit() associates it with a stream together with its axis. The
+/// result has x0, y0, l, m and then the profile's parameters:
 ///
 ///     FitOptions options;
 ///     options.profile = std::make_shared<Barrel>();  // examples/own_surface.cpp

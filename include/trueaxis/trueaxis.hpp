@@ -12,7 +12,7 @@
 #include "trueaxis/correction.hpp"         // target axis, correction table, actuator
 #include "trueaxis/covariance.hpp"         // uncertainties that go together, by name
 #include "trueaxis/datum_axis.hpp"         // the axis of a datum by another association
-#include "trueaxis/diagnosis.hpp"          // what the ideal surface misses
+#include "trueaxis/diagnosis.hpp"          // what the ideal fit misses
 #include "trueaxis/effect.hpp"             // the catalogue of effects
 #include "trueaxis/effect_term.hpp"        // the terms that it knows, and columns of them
 #include "trueaxis/error.hpp"              // InputError, ContractViolation

@@ -20,19 +20,19 @@ inline constexpr double mm_per_um = 1e-3;
 inline constexpr double mm_per_inch = 25.4;
 inline constexpr double mm_per_m = 1000.0;
 
-/// A result: value, standard uncertainty u (GUM), unit; or, in `why_not`, why there is none.
+/// A result: value, standard uncertainty u (GUM), unit; or, in `why_not`, why it is missing.
 struct Estimate {
   double value = std::numeric_limits<double>::quiet_NaN();
   double u = std::numeric_limits<double>::quiet_NaN();  ///< standard uncertainty, k = 1
   std::string unit;     ///< of value and u, inside: "mm", "rad", "s", "1"
   std::string why_not;  ///< why value or u is missing; empty when both are there
 
-  /// Ends of the probabilistically symmetric coverage interval (JCGM 101, 7.7) where value ± U is
-  /// none, with the coverage factor of the result that the estimate is of. The apex of a cone.
+  /// Ends of the probabilistically symmetric coverage interval (JCGM 101, 7.7), if value ± U does
+  /// not contain it: the apex of a cone. It has the coverage factor of the estimate's result.
   std::optional<std::array<double, 2>> interval{};
 
   bool determined() const { return std::isfinite(value); }
-  /// U: k u; of an interval its larger side, so that value ± U holds it.
+  /// U: k u, or the larger side of an interval, so that value ± U holds it.
   double expanded(double coverage_factor) const {
     return interval ? std::max(value - interval->front(), interval->back() - value)
                     : coverage_factor * u;

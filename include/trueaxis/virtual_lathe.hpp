@@ -84,8 +84,8 @@ struct Part {
 /// The probe: it reads along X at Y = 0 (a face: along Z) and touches from outside the material.
 struct Probe {
   double ball_radius_mm = 0.0;  ///< > 0: the reading is the position of the ball's centre
-  std::optional<double> relative_zero_mm;   ///< a gauge: this unknown constant is taken off
-  std::optional<double> nominal_radius_mm;  ///< what the operator states beside a relative reading
+  std::optional<double> relative_zero_mm;   ///< a gauge: this unknown constant is subtracted
+  std::optional<double> nominal_radius_mm;  ///< what the operator states with a relative reading
   bool states_noise = true;                 ///< the stream says its sensor_noise
   /// Several sensors that read at once, each outwards along its own line through the spindle axis:
   /// their angles from +X towards +Y (columns X_M1, X_M2 …). Empty: one, at +X.
@@ -96,7 +96,7 @@ struct Probe {
 struct Chucking {
   int number = 1;
   double reindex_rad = 0.0;  ///< the part turned about its own axis in the sense of C, as the
-                             ///< spindle turns it: a mark at C = 10° then stands at 10° − this
+                             ///< spindle turns it: a mark at C = 10° is then at 10° − this
   double z_shift_mm = 0.0;   ///< the part moved along Z
   bool rear = false;         ///< probed from the rear side: the smaller X
   double x_jog_mm = 0.0;     ///< slide moved in X, sensor and machine still adding up to X
@@ -206,8 +206,8 @@ Simulation simulate_with_truth(const Scenario& scenario);
 /// Probes the part of a scenario at the arguments (C, Z, t, set-up) of a recorded stream instead of
 /// a plan's: that stream with other readings, its `clean_mm` without noise. Speeds and feeds are
 /// those of its passes; a stream without t and speed has neither. The scenario's plan only says how
-/// the part stands in each set-up; u needs the scenario's u_start_mm and u_end_mm.
-/// @throws InputError as simulate(), and for several sensors.
+/// the part is clamped in each set-up; u needs the scenario's u_start_mm and u_end_mm. @throws
+/// InputError as simulate(), and for several sensors.
 Simulation simulate_at(const Scenario& scenario, const ProbeStream& recorded);
 
 /// A correction table as the control runs it; for a face `position_mm` is X and the offsets are in
@@ -223,13 +223,13 @@ struct CutTable {
 /// The part as the tool leaves it, fixed in the spindle frame.
 ///
 /// The control feeds the nose centre along the section of the target at the tool's height, offset
-/// by the nose radius, from where the nose touches the target's start to where it touches its end;
-/// the actuator adds its displacement. The table is interpolated linearly in C
-/// at the actuator's sampling instants and held; the second-order equation is solved exactly from
-/// hold to hold. The surface is the envelope of the circular nose edge over the revolutions (with
-/// nose radius 0 straight between two of them), so feed marks are there. Before the first row and
-/// after the last the tool runs on along the path (CutProgram::runs_on): the table is continued
-/// linearly, angle by angle.
+/// by the nose radius. It runs from where the nose touches the target's start to where it touches
+/// its end; the actuator adds its displacement. The table is interpolated linearly in C at the
+/// actuator's sampling instants and held; the second-order equation is solved exactly from hold to
+/// hold. The surface is the envelope of the circular nose edge over the revolutions (with nose
+/// radius 0 straight between two of them), so feed marks are there. Before the first row and after
+/// the last the tool runs on along the path (CutProgram::runs_on): the table is continued linearly,
+/// angle by angle.
 class CutPart {
  public:
   /// @throws InputError when table and program contradict each other.

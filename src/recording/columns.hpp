@@ -13,18 +13,18 @@ namespace trueaxis {
 /// from which reading and angle follow together.
 enum class RecordedRole { x, face, c, z, y, t, pass, setup };
 
-/// A column and what it is taken for.
+/// A column and its role.
 struct TakenColumn {
   RecordedRole role;
   std::size_t column = 0;
   std::string unit{};              ///< as a stream writes it: "mm", "um", "deg"; empty of a count
-  bool unit_said = true;           ///< false: nobody says it, the default of a stream is taken
+  bool unit_said = true;           ///< false: nobody states it; the default of a stream applies
   std::optional<bool> diameter{};  ///< of x: what its name or unit says, if anything
 };
 
-/// `--columns "X=Diameter,C=Angle(°),Z=3[mm]"`: a stream's column and, behind '=', the name in the
-/// file's header or the number of the column, with a unit in brackets if the file says none; beside
-/// these `decimal=point` or `decimal=comma`.
+/// `--columns "X=Diameter,C=Angle(°),Z=3[mm]"`: a stream's column and, after '=', the name in the
+/// file's header or the number of the column, with a unit in brackets if the file states none.
+/// `decimal=point` or `decimal=comma` may be there too.
 struct ColumnsSaid {
   struct Item {
     std::string role, column;
@@ -37,8 +37,8 @@ struct ColumnsSaid {
 /// @throws InputError with what is wrong with the text and an example.
 ColumnsSaid read_columns_said(const std::string& text);
 
-/// The columns as they were said, or as their names tell. What is not clear is said in `unclear`,
-/// one sentence each; nothing is taken then.
+/// The columns as `--columns` or their names give them. `unclear` gets one sentence for each thing
+/// that is not clear; the columns are then not to be used.
 std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsSaid& said,
                                       std::vector<std::string>& unclear);
 

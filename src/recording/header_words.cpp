@@ -148,7 +148,7 @@ class NameReader {
     name_.meaning = entry.meaning;
     return same;
   }
-  /// The words that a token is made of: the longest first, then what is left of it.
+  /// The words that a token is made of: the longest first, then the rest of it.
   bool take_parts(std::string_view token) {
     if (token.empty()) return true;
     if (const auto whole = words_known().find(token); whole != words_known().end())

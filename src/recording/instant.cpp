@@ -10,7 +10,7 @@
 namespace trueaxis {
 namespace {
 
-/// The whole number in front of `until`, which is taken off; nothing where there is none.
+/// The whole number in front of `until`, removed with it from the text; else nothing.
 std::optional<int> number_before(std::string_view& text, char until) {
   const auto value = take_number<int>(text);
   return value && *value >= 0 && take_word(text, {&until, 1}) ? value : std::nullopt;

@@ -11,7 +11,7 @@ namespace trueaxis {
 
 /// The read-out of an axis against a scale or laser as `calibrate` reads it: `# kind: axis`.
 struct ImportedReadOut {
-  std::vector<std::string> notes;  ///< what was taken and what was not used, in sentences
+  std::vector<std::string> notes;  ///< what was read and what was not used, in sentences
   std::string text;                ///< trueaxis.measurement/1; the digits as they were in the file
   std::size_t rows = 0;
 };

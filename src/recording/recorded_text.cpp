@@ -15,7 +15,7 @@
 namespace trueaxis {
 namespace {
 
-/// UTF-16 behind its byte order mark, as a spreadsheet's "Unicode text" is.
+/// UTF-16 after its byte order mark, as a spreadsheet's "Unicode text" is.
 std::string from_utf16(std::string_view bytes, bool little) {
   std::string out;
   const auto unit = [&](std::size_t at) {
@@ -100,7 +100,8 @@ RecordedColumn recorded_column(std::string_view field) {
     split_at(field.find_last_not_of(" /,_", field.size() - degree.size() - 1) + 1, degree);
     return column;
   }
-  // "C / deg", "X in mm", "angle, rad", "time_s"; X_M is no X in metres, and "in" may be a word.
+  // "C / deg", "X in mm", "angle, rad", "time_s"; X_M is not an X in metres, and "in" may be a
+  // word.
   const std::size_t at = field.find_last_of(" /,_");
   if (at != std::string_view::npos && at > 0) {
     const std::string_view unit = field.substr(at + 1);

@@ -26,7 +26,7 @@ struct RecordedText {
 struct RecordedColumn {
   std::string name;        ///< without its unit; empty where the file has no names
   std::string unit;        ///< as written; empty where the file says none
-  std::string whole;       ///< the field as it stands in the header
+  std::string whole;       ///< the field as it is in the header
   bool is_number = false;  ///< most of its fields are numbers
 };
 
@@ -40,32 +40,32 @@ struct Recording {
   std::vector<double> numbers;          ///< the same of a binary file
   std::vector<std::size_t> lines;       ///< of each row, 1-based
   char decimal = '.';
-  bool of_numbers = false;            ///< a binary file: a row is its line, a unit must be said
+  bool of_numbers = false;            ///< a binary file: a row is its line, a unit must be given
   bool in_thousands = false;          ///< every decimal mark may as well part thousands: 20.100
   std::vector<std::string> notes;     ///< what was passed over or joined, in sentences
   std::vector<std::string> metadata;  ///< lines "# key: value" that are handed on as they are
-  std::deque<std::string> made;       ///< text of cells that stand in no file
+  std::deque<std::string> made;       ///< text of cells that are not in a file
   std::vector<std::string> unclear;   ///< what a caller must say with the columns, in sentences
   std::vector<Diagnostic> wrong;      ///< rows that do not fit; no file named
 
   std::size_t rows() const { return lines.size(); }
-  /// As it stands in a text; of a binary file what is said of a number that is not finite.
+  /// As it is in a text; in a binary file the word for a number that is not finite.
   std::string_view cell(std::size_t row, std::size_t column) const {
     return of_numbers ? "not finite" : cells[row * columns.size() + column];
   }
-  /// The number of a cell; false where it is none, or not finite.
+  /// The number of a cell; false if it is not a number, or not finite.
   bool number(std::size_t row, std::size_t column, double& value) const;
   /// A cell as a stream writes it: the digits of a text with a decimal point.
   std::string written(std::size_t row, std::size_t column) const;
 };
 
-/// A cell read as a number, its decimal comma a point. False where it is none.
+/// A cell read as a number, its decimal comma a point. False if it is not a number.
 bool recorded_number(std::string_view cell, char decimal, double& value);
 
 /// "name", "unit" of "Angle (°)", "C[deg]", "X / mm", "X in mm", "X mm".
 RecordedColumn recorded_column(std::string_view header_field);
 
-// Each reads a layout into `out`; false where the text is none of its kind. A text that is of the
+// Each reads a layout into `out`; false if the text is not of its kind. A text that is of the
 // kind and broken leaves the places in `wrong`.
 
 /// Beckhoff TwinCAT Scope's text export: keyed rows, then "TICKS;v1;v2;…".
@@ -79,7 +79,8 @@ bool read_words(const RecordedText& text, Recording& out);
 /// @throws InputError for a broken file
 Recording recorded_numbers(const std::string& path, const std::string& bytes);
 /// Fields between separators, with or without names: spreadsheets, LinuxCNC's PROBEOPEN and
-/// halsampler. The first `skip` lines are not looked at; `decimal`: '.' or ',' where it is said.
+/// halsampler. The first `skip` lines are not looked at; `decimal`: '.' or ',' if `--columns` gives
+/// it.
 bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> decimal,
                 Recording& out);
 

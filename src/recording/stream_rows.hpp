@@ -12,7 +12,7 @@
 
 namespace trueaxis {
 
-/// The rows of a stream, made of the columns that were taken: those of which every cell is good.
+/// The rows of a stream, made of the chosen columns: those of which every cell is good.
 struct StreamRows {
   std::string header;              ///< "X_M[mm dia],C[deg],Z[mm]"
   std::vector<double> numbers;     ///< row by row, in the order of the header
@@ -20,18 +20,18 @@ struct StreamRows {
   std::vector<std::size_t> lines;  ///< of the file, of each row
   std::vector<std::string> notes;
   std::vector<TakenColumn> taken;  ///< in the order of the header
-  CsvInvalidRows invalid;          ///< that hold no value in a column that was taken
+  CsvInvalidRows invalid;          ///< without a value in a chosen column
 };
 
-/// What is no number goes to `diagnostics`, one place and a count of each kind. Where there is a
+/// `diagnostics` gets what is not a number, one place and a count of each kind. Where there is a
 /// column Y, (X, Y) at C is a point: the reading is its distance from the spindle axis, signed as
 /// X, at the angle C + arctan(Y/X), which is the same point of the part.
-/// With `drop_invalid` rows without a value are no mistakes.
+/// With `drop_invalid` rows without a value are not mistakes.
 StreamRows stream_rows(const Recording& recording, const RecordedText& text,
                        std::vector<TakenColumn> taken, bool diameter, bool drop_invalid,
                        CsvDiagnostics& diagnostics);
 
-/// Row `k` as a stream writes it, with the digits that stand in a text.
+/// Row `k` as a stream writes it, with the digits of the text.
 std::string row_text(const Recording& recording, const StreamRows& rows, std::size_t k);
 
 }  // namespace trueaxis

@@ -37,8 +37,8 @@ double worst(const Moves& moves) {
   return std::max(largest(moves.topRows<2>()), largest(moves.bottomRows<2>()));
 }
 
-/// How far the lathe's X stands above that of the surface as it was fitted, outwards: of a gauge by
-/// what its nominal radius is off, else nothing.
+/// How far the lathe's X is above that of the fitted surface, outwards: the error of the nominal
+/// radius for a gauge, else 0.
 double beyond_model_mm(const Scenario& scenario, const EffectOnAxis& found) {
   const double mm = found.indication_mm + scenario.probe.relative_zero_mm.value_or(0.0);
   const auto& setups = scenario.plan.setups;

@@ -16,7 +16,7 @@ namespace trueaxis::study {
 struct AxisBiasDirection {
   std::vector<double> linear;  ///< the model's free linear parameters
   /// What of the effect is no more than another place of the part: moves the axis, and is in no
-  /// column. The extended model's axis is that of the part so moved.
+  /// column. The axis with the effect fitted is that of the part so moved.
   AxisEnds rigid{};
   /// The lathe's effect of a size, where it is another than that of the term (see lathe_effects).
   std::function<virtual_lathe::Effect(double size)> lathe{};
@@ -37,9 +37,9 @@ struct AxisBiasCase {
 /// Largest distance of the axis over the probed length in the worst phase, mm per edge unit.
 struct AxisBiasRow {
   AxisBiasCase of;
-  double lathe = 0.0;       ///< simulated at the size, the surface fitted alone
-  double lathe_half = 0.0;  ///< at half the size
-  double limit = 0.0;  ///< 2 × half − whole: what is left of the second order is of the third
+  double lathe = 0.0;         ///< simulated at the size, the surface fitted alone
+  double lathe_half = 0.0;    ///< at half the size
+  double limit = 0.0;         ///< 2 × half − whole: the second order cancels, the third remains
   double predicted = 0.0;     ///< the effect's column projected on the surface's columns
   double second_order = 0.0;  ///< between whole and half; as much is left between half and limit
   double off = 0.0;           ///< between limit and prediction
@@ -49,10 +49,10 @@ struct AxisBiasRow {
   double left = 0.0;                       ///< share of the effect that the surface leaves
   bool separable = false;                  ///< whether surface and effect can be fitted together
   double u_ratio = 0.0;                    ///< u(axis) with the effect fitted over that without
-  double extended = 0.0, extended_half = 0.0;  ///< bias of the extended model at both sizes
+  double extended = 0.0, extended_half = 0.0;  ///< bias with the effect fitted, at both sizes
 };
 
-/// Fits noise-free readings of the virtual lathe. The scenario's noise and effects are left out.
+/// Fits noise-free readings of the virtual lathe. The scenario's noise and effects are not used.
 /// Eq. 129.
 /// @throws InputError when the part cannot be probed, the surface not be fitted, or the axis moves
 /// between set-ups of one clamping.

@@ -193,7 +193,7 @@ std::vector<AxisBiasCase> probe_cases(const Where& at) {
 
 /// The catalogue's figure goes to the form that it is of.
 void add_stated(std::vector<AxisBiasCase>& cases) {
-  constexpr double three_lobes = 0.008;  // in words beside the figure of ovality
+  constexpr double three_lobes = 0.008;  // in words next to the figure of ovality
   const std::map<std::string_view, std::string_view> form_of{
       {"part.roundness", "ovality"},
       {"part.bow", "from the lower end"},

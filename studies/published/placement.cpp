@@ -93,7 +93,7 @@ PlacedReading placed(const Table& table, const Understood& one) {
   return out;
 }
 
-/// The level that stands at the first point of the row's axis, and the others, in its path's unit.
+/// The level at the first point of the row's axis, and the others, in its path's unit.
 std::vector<double> levels(const Sweep& sweep, std::size_t axis) {
   std::vector<double> out;
   for (const AxisPoint& point : sweep.axes[axis].points)

@@ -19,7 +19,7 @@ struct PlacedRow {
   double log_likelihood = 0.0;  ///< of the printed numbers
 };
 
-/// The published runs under one reading; rows whose noise is not known are left out.
+/// The published runs under one reading; rows whose noise is not known are excluded.
 struct PlacedReading {
   std::vector<PlacedRow> rows;
   double chi_squared = 0.0, p_value = 0.0;  ///< of all rows together

@@ -14,13 +14,13 @@ namespace trueaxis::study {
 struct PrintedNumber {
   std::string text;
   double value = 0.0;
-  int decimals = 0;  ///< behind the point: what was printed is rounded to half of the last one
+  int decimals = 0;  ///< after the point: what was printed is rounded to half of the last one
 };
 
 /// One single run of a published table.
 struct PublishedRow {
   std::string name;
-  std::size_t grid = 0;  ///< where it stands in the sweep's grid
+  std::size_t grid = 0;  ///< its place in the sweep's grid
   /// The axis whose point is not known (damaged in print): the noise level; `grid` is then at the
   /// axis' first point.
   std::optional<std::size_t> unknown_axis;
@@ -43,7 +43,7 @@ struct Published {
   std::string source;
   std::vector<std::string> parameters;  ///< names of quantities()
   std::vector<PublishedRow> rows;
-  std::vector<PublishedReading> readings;  ///< the first is the plain one: the sweep as it stands
+  std::vector<PublishedReading> readings;  ///< the first is the plain one: the sweep as it is
 };
 
 /// A sweep and, where its file has them, results of it that someone printed.

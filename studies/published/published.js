@@ -26,7 +26,7 @@ const publishedSeries = (name, data) => data.length ? [{name, type: 'scatter', s
 const pEquals = (p) => pText(p).startsWith('>') ? `p ${pText(p)}` : `p = ${pText(p)}`;
 const pText = (p) => !isNumber(p) ? '–' : p > 0.995 ? '> 0.995' : p < 1e-3 ? scientific(p, 1) : significant(p, 2);
 
-/** One run beside the distribution of its cell. */
+/** One run next to the distribution of its cell. */
 function runTable(sweep, row) {
   const {published} = sweep;
   const run = published.runs[row];

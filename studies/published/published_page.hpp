@@ -8,8 +8,8 @@
 
 namespace trueaxis {
 
-/// The published runs, the readings of them and what they leave open, for the page of the sweep;
-/// nothing where they cannot be placed.
+/// The published runs, the readings of them and what remains open, for the page of the sweep;
+/// nothing if they cannot be placed.
 std::vector<SweepReportAddition> published_page(const study::Sweep& sweep,
                                                 const study::Published& published,
                                                 const study::Placement& placement);

@@ -7,7 +7,7 @@
 
 namespace trueaxis {
 
-/// For the terminal: each published run beside the distribution of its cell, how well every reading
+/// For the terminal: each published run with the distribution of its cell, how well every reading
 /// of the printed numbers fits, and intervals of what print has lost.
 std::string published_text(const study::Sweep& sweep, const study::Published& published,
                            const study::Summary& summary, const study::Placement& placement);

@@ -16,7 +16,7 @@ namespace {
 
 using namespace study;
 
-/// "402.036": its value and three decimals. None for what is no plain decimal number.
+/// "402.036": its value and three decimals. Nothing if it is not a plain decimal number.
 std::optional<PrintedNumber> printed(const std::string& text) {
   std::string_view left = text;
   const auto value = take_plain_number(left);

@@ -108,7 +108,7 @@ void fit_to(const Case& of, Effect& effect) {
 }
 
 /// A ball that nobody compensated moves all readings: the sensor is set anew to where they are, for
-/// beyond its range its cubic error is no sensor's.
+/// beyond its range its cubic error is not that of a sensor.
 void set_sensor(const blind::Bench& bench, std::vector<Effect>& list) {
   const auto ball = std::ranges::find(list, "probe.ball_radius", &Effect::id);
   if (ball == list.end()) return;

@@ -43,11 +43,12 @@ struct Case {
 /// Draws the case of this seed.
 Case draw_case(Group group, std::uint64_t seed);
 
-/// x, y of the true axis at both ends of the probed length, mm: of the part as it stands after the
-/// last reading, and, where it is bent, the straight line nearest to its bent axis (least squares).
+/// x, y of the true axis at both ends of the probed length, mm. It is the axis of the part after
+/// the last reading; for a bent part it is the straight line nearest to its bent axis (least
+/// squares).
 std::array<double, 4> true_ends(const Case& of);
 
-/// How far a stated axis is from the truth.
+/// How far the axis of a result is from the truth.
 struct Judged {
   std::array<double, 4> error_mm{}, u_mm{};  ///< x, y at the one end, x, y at the other
   double rms_mm() const;                     ///< over both ends

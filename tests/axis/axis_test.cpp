@@ -32,7 +32,7 @@ TEST(AxisStudy, SeveralSmallEffectsMakeTheAxisNoWorse) {
   const Sums sums = run(Group::mixture);
   EXPECT_LT(std::sqrt(sums.stated / sums.ideal), 1.05) << "seed " << seed;
   // The four numbers of a stream go together: of 16 streams covered with probability 0.935 each
-  // (the goal's lower end), fewer than 12 are by chance 0.3 times in 100.
+  // (the goal's lower end), fewer than 12 are with a probability of 0.3 %.
   EXPECT_GE(sums.covered, 4 * 12) << "seed " << seed;
 }
 
@@ -64,9 +64,9 @@ TEST(AxisStudy, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
   EXPECT_LT(std::sqrt(sums.stated / sums.ideal), 1.05) << "seed " << seed;
 }
 
-// A delay that moves the ideal axis by up to 0.35 mm, in 99 to 171 readings, is not taken for
-// correlated noise: of its error a tenth is left at most, and U says how much (5 of 100 are beyond
-// it: of four one, two by a chance of 1.4 %).
+// A delay that moves the ideal axis by up to 0.35 mm, in 99 to 171 readings, is not mistaken for
+// correlated noise: a tenth of its error is left at most, and U says how much (5 % are beyond it:
+// one of four, two with a probability of 1.4 %).
 TEST(AxisStudy, OfFewReadingsAStrongDelayIsNoNoise) {
   int beyond = 0;
   for (const std::uint64_t at : {30000076U, 30000250U, 30000128U, 30000025U}) {

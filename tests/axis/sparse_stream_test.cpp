@@ -100,9 +100,9 @@ TEST(SparseDesign, LobesMoveNoAxis) {
   EXPECT_EQ(tally.unlisted, 0);  // n and M − n are one column at any whole number of angles
 }
 
-// A dent or a flat moves the axis of the ideal fit. Alone or beside lobes it is taken off where the
-// angles show it: of half the streams that leaves less than half of the error, and of one in
-// twenty it may be taken for another form.
+// A dent or a flat moves the axis of the ideal fit. Alone or with lobes it is subtracted if the
+// angles show it: in half the streams that leaves less than half of the error, and in one of twenty
+// it may be mistaken for another form.
 TEST(SparseDesign, LocalFormsMoveTheAxisLess) {
   Tally tally;
   tally.add(Hidden::local, 40);
@@ -134,8 +134,7 @@ SparseCase plain(int angles) {
   return out;
 }
 
-// Of M angles lobes of the order M/2 show the one phase in which the angles stand, and that is
-// said.
+// With M angles lobes of the order M/2 show the one phase of the angles, and the diagnosis says so.
 TEST(SparseDesign, HalfAsManyLobesAsAnglesShowOnePhase) {
   SparseCase of = plain(8);
   of.scenario.effects = {
@@ -152,8 +151,8 @@ TEST(SparseDesign, HalfAsManyLobesAsAnglesShowOnePhase) {
   EXPECT_LT(judge(of, d.extended.axis).rms_mm(), 1.3 * judge(of, d.baseline.axis).rms_mm());
 }
 
-// Of M angles lobes of the order M − 1 are eccentricity: the axis is off by their amplitude,
-// nothing of them is left, and that is said.
+// With M angles lobes of the order M − 1 are eccentricity: the axis is off by their amplitude,
+// nothing of them is left, and the diagnosis says so.
 TEST(SparseDesign, LobesOfOneLessThanTheAnglesLookLikeEccentricity) {
   constexpr double amplitude_mm = 0.03;
   SparseCase of = plain(8);
@@ -169,9 +168,9 @@ TEST(SparseDesign, LobesOfOneLessThanTheAnglesLookLikeEccentricity) {
 }
 
 // One angle in all sections off by four to eight σ: at eight angles a groove or lobes of orders 2,
-// 3 and 4 in one phase. Beside the eccentricity alone √(40/8 · 5/8) of that tell it, 7 σ and more,
-// so that the groove is named or in the class of what is; both are told with their probabilities,
-// and how many angles would tell.
+// 3 and 4 in one phase. After the eccentricity √(40/8 · 5/8) of that tell it, 7 σ and more, so that
+// the groove is named or in the class of what is. Both have their probabilities, and how many
+// angles would tell.
 TEST(SparseDesign, ALocalFormAndLobesAreOneClass) {
   Tally tally;
   int classes = 0, held = 0;

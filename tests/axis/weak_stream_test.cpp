@@ -49,7 +49,7 @@ Diagnosis diagnosed(const Case& of) { return diagnosed(of, virtual_lathe::simula
 
 bool is_silent(const Diagnosis& d) { return d.findings.empty() && d.unexplained.empty(); }
 
-// At 1 % a stream. Without the autoregression of streams this short half of them had findings.
+// At 1 % a stream. Without the autoregression of streams this short half of them had causes.
 TEST(ShortStream, OfCorrelatedNoiseIsSilent) {
   constexpr int streams = 80;
   std::cout << "seed " << seed << '\n';
@@ -86,7 +86,7 @@ TEST(FastBeat, IsTwoLinesOfItsOrder) {
   }
 }
 
-// Rounded to 4 µm, readings of σ = 0.3 µm err by a period of X; it is no error of the scale.
+// Rounded to 4 µm, readings of σ = 0.3 µm err by a period of X; it is not an error of the scale.
 TEST(Rounding, IsTakenOffAndNoFinding) {
   for (const auto surface : {blind::SurfaceId::cone, blind::SurfaceId::cylinder}) {
     Case of = stream_of(blind::PlanId::p3, surface, 1500.0, seed + 1);
@@ -103,7 +103,7 @@ TEST(Rounding, IsTakenOffAndNoFinding) {
 }
 
 // In one pass feed marks of nearly the probe's lead show as few cycles along the part, like a
-// waviness, or on a cone a period of the scale: beside what is named they are in the class.
+// waviness, or on a cone a period of the scale: they are in the class of what is named.
 // (The mirror of the line, at the same distance on the other side of the lead, fitted better at its
 // first shape.)
 TEST(FeedMarks, OfNearlyTheProbesLeadStayInTheClass) {
@@ -145,8 +145,8 @@ bool may_be(const Diagnosis& d, std::string_view effect) {
   return std::ranges::any_of(d.findings, [&](const Finding& f) { return f.may_be(effect); });
 }
 
-// As slow along a single pass as a taper with a barrel, marks of nearly its lead are none of the
-// two names: the classes hold both. One line of marks stood for taper and barrel in 7 of 20.
+// As slow along a single pass as a taper with a barrel, marks of nearly its lead have neither name:
+// the classes hold both. One line of marks stood for taper and barrel in 7 of 20.
 TEST(FeedMarks, OfTheProbesLeadTaperAndBarrelAreNotToldApart) {
   constexpr int streams = 40;
   std::cout << "seed " << seed << '\n';
@@ -211,7 +211,7 @@ TEST(Waviness, OfALongWaveIsFound) {
 }
 
 // A machine that moved between two set-ups that are a jog apart looks like a gain of some −70 %,
-// by which the axis would go 23 µm off: nothing is named, and the ideal fit stands.
+// by which the axis would go 23 µm off: nothing is named, and the ideal fit stays.
 TEST(Gain, OfAnImpossibleSizeIsNoCause) {
   constexpr int streams = 24;
   std::cout << "seed " << seed << '\n';
@@ -238,8 +238,8 @@ TEST(Gain, OfAnImpossibleSizeIsNoCause) {
   EXPECT_LE(named, allowed(streams));
 }
 
-// Play of the slide acts like a delay of either sign, and no sensor leads what it follows: of the
-// two only the delay is taken, and the class is told.
+// Play of the slide acts like a delay of either sign, and no sensor leads what it follows: only the
+// delay is named, with its class.
 TEST(Lag, ThatWouldLeadIsNoCause) {
   int delays = 0;
   for (std::uint64_t i = 0; i < 4; ++i) {

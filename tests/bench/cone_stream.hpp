@@ -24,7 +24,7 @@ inline constexpr double table1_noise_mm = 0.01;
 inline constexpr double table1_length_mm = 50.0;
 inline constexpr int table1_readings_per_revolution = 10;
 
-/// Constantin et al.'s helix of 10 readings a revolution over Z in [−50, 0] mm, `count` readings
+/// Constantin et al.'s helix of 10 readings per revolution over Z in [−50, 0] mm, `count` readings
 /// whatever the feed (0.2 mm/rev at 2500), with independent Gaussian noise on X_M.
 inline ProbeStream make_cone_stream(std::size_t count, std::uint64_t seed,
                                     double noise_mm = table1_noise_mm) {

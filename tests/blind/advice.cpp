@@ -6,7 +6,8 @@
 namespace trueaxis::blind {
 namespace {
 
-// Members of the smallest class that holds the cause, and what is said to split it; 0: none does.
+// Members of the smallest class that holds the cause, and the advice that would split it; 0: none
+// does.
 struct Held {
   std::size_t size = 0;
   std::string separator;

@@ -11,10 +11,10 @@
 namespace trueaxis::blind {
 
 /// A plan on the virtual lathe without effects, the readings of it that are kept, and what the
-/// ideal surface's parameters can move them by.
+/// parameters of the ideal fit can move them by.
 class Bench {
  public:
-  /// `scenario`: without effects; `rows`: of the stream, ascending; empty: all.
+  /// `scenario`: without effects; `rows`: those of the stream, ascending; empty: all.
   explicit Bench(virtual_lathe::Scenario scenario, std::vector<std::size_t> rows = {});
 
   /// Readings without noise of the part with these effects, mm, the kept rows.

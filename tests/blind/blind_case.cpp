@@ -137,7 +137,7 @@ class Maker {
 
   double at(const Effect& effect) { return lambda(*bench_, effect, {}, sigma_mm_, false); }
 
-  // Each keeps four fifths of its λ beside what the others can do: together they are still several.
+  // Each keeps four fifths of its λ after what the others can do: together they are still several.
   bool come_apart(const std::vector<Effect>& effects) {
     for (std::size_t i = 0; i < effects.size(); ++i) {
       std::vector<Effect> others = effects;

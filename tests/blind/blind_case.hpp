@@ -48,8 +48,8 @@ struct BlindCase {
 /// that would need more is not asked for with this plan.
 inline constexpr double largest_stretch = 3.0;
 
-/// An effect counts as absorbed where λ at the upper end of its typical range is below this: half a
-/// chance to be found needs ten times as much, even if it were the only hypothesis.
+/// An effect counts as absorbed where λ at the upper end of its typical range is below this: to be
+/// found with probability ½ it needs ten times as much, even if it were the only hypothesis.
 inline constexpr double absorbed_lambda = 2.0;
 
 /// @throws std::runtime_error when nothing fits in 400 draws.

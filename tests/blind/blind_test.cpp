@@ -67,7 +67,7 @@ TEST_P(Blind, ReachesTheGoal) {
 INSTANTIATE_TEST_SUITE_P(Kinds, Blind, ::testing::ValuesIn(shares),
                          [](const auto& at) { return to_string(at.param.kind); });
 
-/// Of sizes as the catalogue expects them, a cause that is stated to be true with p > 1/2 is that
+/// With sizes as the catalogue expects them, a cause that is stated to be true with p > 1/2 is that
 /// in p of all: their sum against its own binomial spread, at the level of the other goals.
 TEST(BlindProbabilities, AreThoseOfTheTruth) {
   constexpr std::size_t cases = 240;

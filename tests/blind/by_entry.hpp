@@ -27,10 +27,10 @@ struct ByEntry {
 
 ByEntry by_entry(const trueaxis::Effect& entry);
 
-/// nullptr: a table of the judge has it, or it is no effect of a lateral surface.
+/// nullptr: a table of the judge has it, or it is not an effect of a lateral surface.
 const ByEntry* known_by_entry(std::string_view id);
 
-/// Shapes at which it can mimic what is left: lines of the spectrum that its entry names, or values
+/// Shapes at which it can mimic the residual: lines of the spectrum that its entry names, or values
 /// over the typical range.
 std::vector<Effect> mimics(const Bench& bench, const ByEntry& of, const Residue& left);
 

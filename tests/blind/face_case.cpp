@@ -24,7 +24,7 @@ double log_between(Random& random, double low, double high) {
   return std::exp(between(random, std::log(low), std::log(high)));
 }
 
-/// Tilted by up to 1 mrad; the axis stands where the spindle's pierces the face.
+/// Tilted by up to 1 mrad; the axis is where the spindle's pierces the face.
 Scenario ideal_face(Random& random, bool back) {
   Scenario scenario;
   virtual_lathe::Part& part = scenario.part;
@@ -46,7 +46,7 @@ Scenario ideal_face(Random& random, bool back) {
   return scenario;
 }
 
-/// The parameters beside the size.
+/// The parameters except the size.
 std::map<std::string, double> shape_of(const std::string& id, Random& random) {
   std::map<std::string, double> shape;
   const auto kind = virtual_lathe::find_effect_kind(id);

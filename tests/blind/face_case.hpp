@@ -34,7 +34,7 @@ struct FaceCase {
   double lambda = 0.0;
 };
 
-/// @param family nullptr: no effect. Its λ beside the face's own parameters is drawn log-uniform
+/// @param family nullptr: no effect. Its λ after the face's own parameters is drawn log-uniform
 /// from 60 to 400.
 FaceCase draw_face(const FaceFamily* family, std::uint64_t seed);
 

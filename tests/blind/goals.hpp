@@ -10,14 +10,15 @@ namespace trueaxis::blind {
 /// The share of cases that docs/evidence/blind_study.md wants right.
 double goal(Kind kind, PlanId plan);
 
-/// Of the recommended measurements, taken in the virtual lathe, that resolve the class (issue 3).
+/// The share of recommended measurements, taken in the virtual lathe, that resolve the class (issue
+/// 3).
 inline constexpr double advice_goal = 0.90;
 
 /// A class member may be this far, in σ, from the truth: Φ(d/2) = 0.95.
 inline constexpr double demanded_distance = 3.29;
 
-/// The engine may also keep a rival that its second rule, the likelihood ratio of the data, cannot
-/// exclude; beyond Φ(d/2) = 0.9995 no data leave that open.
+/// The engine may also keep a rival cause that its second rule, the likelihood ratio of the data,
+/// cannot exclude; beyond Φ(d/2) = 0.9995 no data leave that open.
 inline constexpr double allowed_distance = 6.6;
 
 /// A test fails where so few right ones have less than this probability at the goal.

@@ -110,7 +110,7 @@ TEST(Judge, OnePassOfAConeAbsorbsWhatTheCatalogueSays) {
 }
 
 // An effect that no table of the judge has is judged by its entry: that has what the tables say,
-// but for sizes beside the first that an entry states as one.
+// except further sizes that an entry states as one.
 TEST(Judge, AnEntryHasTheSizesOfTheTable) {
   for (const Family& of : families()) {
     const ByEntry by = by_entry(*find_effect(of.id));

@@ -11,10 +11,10 @@ namespace trueaxis::blind {
 enum class Outcome {
   correct,
   too_wide,            ///< every truth in a class, a class with a member that the geometry excludes
-  wrong_name,          ///< a truth in no class, and a finding that holds none
+  wrong_name,          ///< a truth in no class, and a cause whose class holds no truth
   missed,              ///< a truth in no class, nothing else found
-  false_alarm,         ///< a null case with a finding
-  extra_finding,       ///< every truth in a class, and one more finding
+  false_alarm,         ///< a null case with a cause
+  extra_finding,       ///< every truth in a class, and one more cause
   not_called_unknown,  ///< a cause outside the catalogue was named, or not seen
   not_abstained,       ///< an absorbed cause: something was found, or it is not in not_observable
   crash
@@ -32,13 +32,13 @@ struct Member {
 struct Score {
   Outcome outcome = Outcome::crash;
   std::vector<std::string>
-      named;                    ///< per true effect the cause that holds it, or what stands there
-  std::vector<Member> members;  ///< all listed rivals of all truths
+      named;  ///< per true effect the cause that holds it, or what is in its place
+  std::vector<Member> members;  ///< all listed rival causes of all truths
   bool strict = true;           ///< every member within the demanded distance
 };
 
-/// Pairs truths and findings so that the most truths lie in the class of their finding; at most
-/// eight findings.
+/// Pairs truths and causes so that the most truths lie in the class of their cause; at most eight
+/// causes.
 std::vector<int> pair_up(const std::vector<Effect>& truths,
                          const std::vector<std::vector<std::string>>& classes);
 

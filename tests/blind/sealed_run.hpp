@@ -15,7 +15,7 @@ namespace trueaxis::blind {
 struct Answer {
   int exit_code = -1;
   std::string text;                                ///< of a crash
-  std::vector<std::vector<std::string>> classes;   ///< of the findings, the named one first
+  std::vector<std::vector<std::string>> classes;   ///< of the causes, the named one first
   std::vector<std::vector<double>> probabilities;  ///< of the members of the classes
   std::vector<std::string> separators;   ///< of each class: its separate_with.plan, or empty
   std::vector<std::string> unexplained;  ///< "3 UPR, constant along Z"

@@ -7,7 +7,7 @@
 
 namespace trueaxis::blind {
 
-/// λ = ‖(I − P) μ‖²/σ², μ the effect's change of the clean readings beside `others`, P the
+/// λ = ‖(I − P) μ‖²/σ², μ the effect's change of the clean readings with `others`, P the
 /// surface's parameters and, when `protect_others`, all that the causes of `others` can do at their
 /// shapes.
 double lambda(const Bench& bench, const Effect& effect, const std::vector<Effect>& others,

@@ -17,7 +17,7 @@ struct Result {
   BlindCase made;
   Answer answer;
   Score score;
-  /// Of a followed advice: the measurement, and what the command said with it.
+  /// An advice that was followed: the measurement, and what the command said with it.
   std::string advice;
   bool advice_wanted = false, advice_taken = false, advice_resolved = false;
   Answer advised;  ///< with the measurement added

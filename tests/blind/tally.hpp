@@ -30,9 +30,9 @@ struct Tally {
   std::map<Kind, Cell> kinds;          ///< over the plans; the goal is that of P3
   std::map<std::string, Cell> noises;  ///< of the null cases
   std::map<std::string, std::map<std::string, std::size_t>> confusion;  ///< truth → named → count
-  std::size_t members = 0, members_strict = 0;  ///< listed rivals; those with d < 3.29
+  std::size_t members = 0, members_strict = 0;  ///< listed rival causes; those with d < 3.29
   std::size_t members_excluded = 0;             ///< those with d ≥ 6.6
-  /// Of members of classes that hold a truth, by their stated probability in tenths: their number,
+  /// For members of classes that hold a truth, by their stated probability in tenths: their number,
   /// the sum of the probabilities, and how many are the truth.
   struct Stated {
     std::size_t members = 0, true_ones = 0;

@@ -47,12 +47,12 @@ Plan plan_of(const std::string& name, const Layout& layout, std::uint64_t seed);
 /// What is wrong with the machine while it is measured.
 struct Fault {
   ErrorModel errors;
-  AxisPositions reversal{};  ///< how much too high an axis stands that came from above
+  AxisPositions reversal{};  ///< how much too high an axis is that came from above
   Vector3 drift_mm{};        ///< of the tip in M from the first visit to the last
   double end_s = 0.0;        ///< of the visits that the drift is over
   Vector3 slip_mm{};
   std::size_t slip_at = 0;  ///< the visit, from 1 on
-  /// Component errors of one visit alone, beside `errors`.
+  /// Component errors of one visit alone, in addition to `errors`.
   std::function<std::vector<ErrorTerm>(const Visit&)> of_visit;
 };
 

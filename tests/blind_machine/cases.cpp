@@ -74,7 +74,7 @@ Drawn drawn_effect(const Judge& judge, const Plan& plan, std::mt19937_64& engine
   }
 }
 
-/// Of two effects each has 50 and more beside the other.
+/// Each of two effects has 50 and more after the other.
 bool told_apart(const Drawn& a, const Drawn& b, const Judge& judge) {
   const auto columns = [&](const Drawn& one) {
     for (const Fault& unit : one.effect.units)
@@ -112,7 +112,7 @@ void hide_unknown(Case& out, const Judge& judge, std::mt19937_64& engine) {
   }
 }
 
-// Of the size that matters, of which the positions show less than λ = 2.
+// An effect of the size that matters, of which the positions show less than λ = 2.
 bool hide_absorbed(Case& out, const Judge& judge, std::mt19937_64& engine) {
   for (int tries = 0; tries < 2000; ++tries) {
     const std::size_t t = below(engine, judge.effects().size());
@@ -157,7 +157,7 @@ Case make_case(const Wanted& wanted) {
   out.fault.end_s = out.plan.visits.back().time_s;
   if (wanted.kind == Kind::silent) return out;
   const Judge judge(machine, out.plan);
-  // What the advice is asked about: in turn an effect with rivals or none, and one that is
+  // What the advice is asked about: in turn an effect with rival causes or none, and one that is
   // absorbed.
   const bool absorbed =
       wanted.kind == Kind::absorbed || (wanted.kind == Kind::advised && wanted.seed % 2 == 0);

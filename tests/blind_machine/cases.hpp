@@ -24,9 +24,9 @@ struct Case {
   const Layout* layout = nullptr;
   Plan plan;
   Fault fault;                     ///< location errors, and what is hidden
-  std::vector<std::string> truth;  ///< effects; of kind unknown what it is, in words
+  std::vector<std::string> truth;  ///< effects, or for an unknown kind what it is, in words
   std::vector<Effect> hidden;      ///< …as effects, with their coefficients taken in
-  std::vector<double> lambda;      ///< of each beside the base
+  std::vector<double> lambda;      ///< of each after the base
 };
 
 /// Drawn from the seed alone. Sizes are plausible ones: 0.1 mm and 0.2 mrad at most.

@@ -88,7 +88,8 @@ MatrixXd Judge::beside_base(MatrixXd columns) const {
   return columns;
 }
 
-// Directions of the location errors that stay below one σ at the largest plausible size are none.
+// Directions of the location errors that stay below one σ at the largest plausible size do not
+// count.
 void Judge::make_base() {
   std::vector<VectorXd> places, errors;
   std::vector<int> balls;

@@ -19,27 +19,27 @@ struct Effect {
 inline constexpr double largest_mm = 0.1, largest_rad = 0.2e-3;  ///< plausible sizes
 inline constexpr double typical_mm = 0.01, typical_rad = 50e-6;  ///< that matter
 
-/// Coefficients times the units of an effect, beside `fault`.
+/// Coefficients times the units of an effect, in addition to `fault`.
 Fault with(const Fault& fault, const Effect& effect, const Eigen::VectorXd& coefficients);
 
-/// Judges by finite differences of the virtual machine alone what a plan shows beside location
+/// Judges by finite differences of the virtual machine alone what a plan shows after location
 /// errors and the places of the balls.
 class Judge {
  public:
   Judge(const Machine& machine, const Plan& plan);
 
   const std::vector<Effect>& effects() const { return effects_; }
-  /// Columns over σ beside the base, per mm or rad.
+  /// Columns over σ after the base, per mm or rad.
   const Eigen::MatrixXd& columns(std::size_t effect) const { return columns_[effect]; }
   std::size_t index(const std::string& name) const;
 
-  /// What a fault does to the readings over σ, beside the base.
+  /// What a fault does to the readings over σ, after the base.
   Eigen::VectorXd effect_of(const Fault& fault) const;
-  /// Distance of `mu` from the best fit of an effect, of ball.slip of the best row, beside columns
+  /// Distance of `mu` from the best fit of an effect, for ball.slip of the best row, after columns
   /// that are fitted as well.
   double distance(const Eigen::VectorXd& mu, const std::string& name,
                   const Eigen::MatrixXd& beside = {}) const;
-  /// λ that is left of `mu` beside the base and columns.
+  /// λ that is left of `mu` after the base and columns.
   static double left(const Eigen::VectorXd& mu, const Eigen::MatrixXd& beside);
   /// λ that the best sum of two effects leaves of `mu`, found one after the other.
   double left_by_two(const Eigen::VectorXd& mu) const;

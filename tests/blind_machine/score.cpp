@@ -12,7 +12,7 @@ bool holds(const std::vector<std::string>& members, const std::string& name) {
   return std::ranges::find(members, name) != members.end();
 }
 
-/// Which finding stands for which of at most two truths, the best of both ways round.
+/// Which cause belongs to which of at most two truths, the best of both ways round.
 std::vector<int> paired(const std::vector<std::string>& truth,
                         const std::vector<std::vector<std::string>>& classes) {
   std::vector<int> best(truth.size(), -1);

@@ -23,8 +23,8 @@ std::size_t class_size(const Answer& answer, const std::string& truth) {
   return least;
 }
 
-/// The plan with the advised visits behind it; a new ball stands within a millimetre of the place
-/// that was asked for, and old ones where they stood.
+/// The plan with the advised visits after it; a new ball is within a millimetre of the wanted
+/// place, and old ones are where they were.
 Plan extended(const Case& one, const Advice& advice) {
   Plan plan = one.plan;
   double time_s = plan.visits.back().time_s;

@@ -15,7 +15,7 @@ namespace trueaxis::blind_machine {
 struct Advice {
   std::string code;
   std::vector<Visit> visits;
-  std::set<std::string> promised;  ///< what it shows, and findings whose class it tells apart
+  std::set<std::string> promised;  ///< what it shows, and causes whose class it tells apart
 };
 
 /// What the command said of a measurement.
@@ -32,7 +32,7 @@ struct Answer {
 enum class Outcome {
   correct,
   too_wide,            ///< a class holds what the judge puts beyond d = 6.6
-  wrong_name,          ///< a truth in no class, and a finding that holds none
+  wrong_name,          ///< a truth in no class, and a cause whose class holds no truth
   missed,              ///< a truth in no class, nothing else found
   false_alarm,         ///< of nothing
   extra_finding,       ///< every truth in a class, and more
@@ -44,10 +44,10 @@ enum class Outcome {
 };
 std::string to_string(Outcome outcome);
 
-/// Members of classes listed beside the truths.
+/// Members of classes listed with the truths.
 struct Members {
   std::size_t listed = 0;
-  std::size_t far = 0;        ///< with d ≥ 6.6 beside the other true term
+  std::size_t far = 0;        ///< with d ≥ 6.6 after the other true term
   std::size_t far_alone = 0;  ///< with d ≥ 6.6, were the other known
 };
 
@@ -77,8 +77,8 @@ Wanted wanted_from(const std::string& id);
 Result run_case(const Wanted& wanted, const StudyOptions& options);
 std::vector<Result> run_study(const std::vector<Wanted>& wanted, const StudyOptions& options);
 
-/// Writes FOLDER/machine.toml and data.csv and runs the command on them; the truth is written
-/// beside the folder and not told.
+/// Writes FOLDER/machine.toml and data.csv and runs the command on them; the truth is written next
+/// to the folder, where the command does not look.
 Answer run_command(const Case& one, const Plan& plan, std::uint64_t noise_seed,
                    const std::string& command, const std::filesystem::path& folder);
 

@@ -96,7 +96,8 @@ Effect of_two_axes(const Machine& machine, const Plan& plan, Engine& engine) {
   return {"two axes, " + to_string(name) + " with " + "XYZABC" [other], { fault }, name.angular()};
 }
 
-// Of a shift, or of a scale: 1 − exp(−t/τ), of two time constants, or up and down with a pause.
+// The course of a shift or a scale: 1 − exp(−t/τ), with two time constants, or up and down with a
+// pause.
 Effect warming(const Machine& machine, const Plan& plan, Engine& engine) {
   const double whole_s = plan.visits.back().time_s, tau = whole_s * drawn(engine, 0.06, 0.25);
   const double pause_s = whole_s * drawn(engine, 0.4, 0.7);

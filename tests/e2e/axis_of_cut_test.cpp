@@ -46,7 +46,7 @@ std::array<double, 2> cut_at_start(const json& run) {
 }
 
 constexpr double z_start_mm = 40.0;    // of simple_job
-constexpr double direction_mm = 1e-5;  // l is a direction cosine, beside a slope: z l³/2
+constexpr double direction_mm = 1e-5;  // l is a direction cosine, not a slope: z l³/2
 
 TEST_F(AxisOfCut, AJobMayAskForTheIdealOrTheNamedOne) {
   const json stated = run_with(""), ideal = run_with("axis = \"ideal\"\n");
@@ -58,7 +58,7 @@ TEST_F(AxisOfCut, AJobMayAskForTheIdealOrTheNamedOne) {
     EXPECT_NEAR(cut[0], is[0], direction_mm) << of;
     EXPECT_NEAR(cut[1], is[1], direction_mm) << of;
   }
-  // The stated axis is where the part's axis is: a cut about another one is off it by as much.
+  // The final axis is where the part's axis is: a cut about another one is off it by as much.
   const auto about = cut_at_start(ideal), is = cut_at_start(stated);
   const double off_mm = std::hypot(about[0] - is[0], about[1] - is[1]);
   ASSERT_GT(off_mm, 1e-4);

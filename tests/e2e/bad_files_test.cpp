@@ -25,8 +25,8 @@ TEST_P(BadStreamCommand, EveryDiagnosticAndNoFile) {
   fs::copy_file(bad_streams / GetParam(), folder_ / GetParam());
   const std::string expected = read_text((bad_streams / GetParam()).replace_extension(".expected"));
   const char* surface = GetParam().starts_with("face") ? "plane" : "cone";
-  // Without the names of a stream it is taken for another program's table, and its columns asked
-  // for.
+  // Without the names of a stream it counts as another program's table, and the command asks for
+  // its columns.
   const bool asked = GetParam() == "header_missing.csv" || GetParam() == "reading_missing.csv" ||
                      GetParam() == "decimal_comma.csv";
   const std::string said = asked ? "the command that would read it: trueaxis fit" : expected;

@@ -50,8 +50,8 @@ TEST_F(CheckOption, OfALathe) {
   expect_checked("study axis-bias -o bias", "effects, one at a time");
 }
 
-// A gauge's readings are no positions, which an association of points needs: `--check` refuses what
-// `run` would end with.
+// A gauge's readings are not positions, which an association of points needs: `--check` refuses
+// what `run` would end with.
 TEST_F(CheckOption, RefusesTheAssociationOfAGaugeAsRunDoes) {
   file("job.toml",
        "[[reference]]\nname = \"seat\"\nstream = \"" + data +

@@ -247,7 +247,7 @@ TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfIt) {
   const auto source = calls(folder_, "p.nc"), written = calls(folder_, "out.nc");
   EXPECT_GT(source.size(), 20u);
   EXPECT_EQ(written, source);
-  // In pieces it makes more moves, before which a feed mode may be said again, and nothing else.
+  // In pieces it makes more moves, before which a feed mode may be repeated, and nothing else.
   ASSERT_EQ(
       command("machine compensate p.nc " + of_trunnion + "-o pieces.nc --tolerance-um 2").exit_code,
       0);

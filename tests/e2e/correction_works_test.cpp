@@ -76,7 +76,7 @@ std::string cut_scenario(const Case& c, const char* use) {
           format("height_mm = %g\n", c.tool_height_mm) +
           format("angle_from_probe_deg = %g\n", c.tool_angle_deg) + format("sense = %g\n", c.sense);
   text += c.perfect ? "[cut.actuator]\nperfect = true\n" : "[cut.actuator]\nperfect = false\n";
-  // The lead: 0.1 × 11.618… is no multiple of the feed, so that the feed marks average out.
+  // The lead: 0.1 × 11.618… is not a multiple of the feed, so that the feed marks average out.
   return text +
          "[[pass]]\nz_start_mm = 38\nz_end_mm = 22\nfeed_mm_per_rev = "
          "1.1618033988\nreadings_per_revolution = 101.3\n";

@@ -53,7 +53,7 @@ TEST_F(DrillingCycles, AreWhereTheSourceHasThem) {
       }
     }
     EXPECT_NEAR(value_of(result("r.json").at("error_before").at("position")), before, 1e-9);
-    // No cycle is left, and every word that is no position of a cycle stays.
+    // No cycle is left, and every word that is not a position of a cycle stays.
     EXPECT_FALSE(std::regex_search(out, std::regex("G8[123]|G9[89]")));
     for (const char* kept : {"%\nO100 (DRILL)\nG21 G90 G94 G54\nT1 M6 S2000 M3\n", "N10 G0 X",
                              " F200 M8 (hole 1, Z R)\n", "(hole 3)\n", "/N35 X", " ; on\n",
@@ -125,9 +125,9 @@ std::vector<std::string> straight_moves(const std::filesystem::path& folder,
   return out;
 }
 
-// LinuxCNC makes of the written moves what it makes of the cycles, were the errors none: the source
-// written out by errors that cancel each other but for one rounding would not do, so that its moves
-// are counted by kind.
+// Without errors LinuxCNC makes of the written moves what it makes of the cycles. Writing the
+// source out by errors that cancel each other except for one rounding would not do, so the test
+// counts its moves by kind.
 TEST_F(DrillingCycles, LinuxCncMakesTheSameKindsOfMoves) {
   if (shell("command -v rs274").exit_code != 0) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
   const std::string program =

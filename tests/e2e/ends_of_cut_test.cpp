@@ -118,7 +118,7 @@ std::vector<std::string> orders_of(const std::string& program) {
   return orders;
 }
 
-// Under inverse time the first block would go from wherever the machine stands to the start of the
+// Under inverse time the first block would go from wherever the machine is to the start of the
 // cut within a block's time.
 TEST_F(EndsOfCut, AServoProgramFeedsFromWhereItSaysTheMachineMustStand) {
   probed(false);

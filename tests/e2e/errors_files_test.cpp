@@ -55,7 +55,8 @@ TEST_F(ErrorsFiles, OfTheWorkpieceHaveNoSign) {
   expect_actual(pose("both.toml"));
 }
 
-// What `locate` writes beside a machine's errors: both displacements, and both uncertainties.
+// What `locate` writes in addition to a machine's errors: both displacements, and both
+// uncertainties.
 TEST_F(ErrorsFiles, LocatedPartOnAMachineWithErrors) {
   ASSERT_EQ(command("setup locators " + data_ + "hong.toml -o part.toml").exit_code, 0);
   ASSERT_EQ(command("machine calibrate --machine " + machine_ + ' ' + data_ +
@@ -124,8 +125,8 @@ TEST_F(ErrorsFiles, CalibrateGoesOnFromItsOwnErrors) {
   EXPECT_EQ(amounts, 1U);
 }
 
-// Sizes that no machine has are refused (tests/refusals/errors_*), and taken where they are said to
-// be meant: by the file, on the command line, by a job; what is written of them is read again.
+// Sizes that no machine has are refused (tests/refusals/errors_*), and accepted if the file, the
+// command line or a job says that they are intended; what is written of them is read again.
 TEST_F(ErrorsFiles, AsLargeAsNoMachineHasThemOnlyWhereItIsSaid) {
   const std::string head = "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n",
                     entry = "[[error]]\nname = \"X0C\"\nvalue_mm = 5.5\n";
@@ -161,8 +162,8 @@ TEST_F(ErrorsFiles, AsLargeAsNoMachineHasThemOnlyWhereItIsSaid) {
   EXPECT_EQ(X0C("plain.toml"), 5.0);
 }
 
-// Errors that do not say their machine are taken for those of the one that is given, and that is
-// said by every command that uses them; errors of a workpiece hold on any machine.
+// Errors that do not state their machine count as those of the one that is given, and every command
+// that uses them says so; errors of a workpiece hold on any machine.
 TEST_F(ErrorsFiles, ThatDoNotSayTheirMachineAreTakenWithAWord) {
   const std::string said = "own.toml does not name the machine of its errors",
                     head = "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n";

@@ -109,7 +109,7 @@ TEST_F(Faces, AtOneRadiusTheFundamentalMotionIsAbsorbed) {
 }
 
 // One Z: lobes of the part and motion of the spindle are one column, which re-indexing splits; what
-// needs a length is said to be out of sight. (In phase with the eccentricity, three lobes are a
+// needs a length is listed as not observable. (In phase with the eccentricity, three lobes are a
 // cubic sensor too.)
 TEST_F(Faces, ASectionNamesBothAndTheMeasurementThatTells) {
   simulated("section",

@@ -57,7 +57,7 @@ class FirstHour : public CommandTest {
   FitResult expected_;
 };
 
-/// What the page draws, as it stands in it.
+/// What the page draws, as it is in it.
 nlohmann::json data_of(const std::string& page) {
   const std::string begin = "<script id=\"data\" type=\"application/json\">";
   const std::size_t at = page.find(begin) + begin.size();
@@ -72,7 +72,7 @@ TEST_F(FirstHour, FromTheExportToTheReportInOneCommand) {
   expect_axis(result("result/result.json").at("references").at(0).at("fit"));
   const std::string page = read_text(folder_ / "result/report.html");
   expect_axis(data_of(page).at("references").at(0));
-  // It stands alone: nothing is fetched when it is opened.
+  // It is complete: opening it fetches nothing.
   for (const char* fetched : {" src=\"http", "href=\"http", "@import", "url(http"})
     EXPECT_EQ(page.find(fetched), std::string::npos) << fetched;
 }

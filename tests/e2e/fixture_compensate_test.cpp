@@ -33,8 +33,8 @@ double value(const nlohmann::json& json) { return json.at("value"); }
 constexpr double rounding_mm = 0.5e-4 * 1.7320508 + 2.0 * 0.5e-5 * rad_per_deg * 160.0;
 constexpr double rounding_rad = 2.0 * 0.5e-5 * rad_per_deg;
 
-// 0.3 mm before, the rounding of the words after; and so by the test's own machine, whose fixture
-// the part stands in displaced by D.
+// 0.3 mm before, the rounding of the words after; and so by the test's own machine, in whose
+// fixture the part is displaced by D.
 TEST_F(FixtureCompensate, TwelveHoles) {
   const nlohmann::json json = compensate("holes", "");
   EXPECT_NEAR(value(json.at("error_before").at("position")), 0.3, 0.03);

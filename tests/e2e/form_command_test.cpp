@@ -106,11 +106,12 @@ TEST_F(FormCommand, AgainstADatumOfItsOwn) {
   ASSERT_EQ(command("form p.csv --datum d.csv --upr 1-15 --json r.json").exit_code, 0);
   const nlohmann::json json = result("r.json");
   EXPECT_EQ(json.at("datum").at("association"), "gaussian");
-  // Both are limaçons: their circles' centres are e²/R² of e beside it at most, 1e-7 mm.
+  // Both are limaçons: their circles' centres are e²/R² of e off it at most, 1e-7 mm.
   EXPECT_LT(value(json.at("groups").at(1).at("values"), "coaxiality"), 5e-5);
 }
 
-// A tapered datum, coaxial with the part, rocks in its circumscribed cylinder, which is said.
+// A tapered datum, coaxial with the part, rocks in its circumscribed cylinder, which the screen
+// says.
 TEST_F(FormCommand, ATaperedDatumRocks) {
   const auto lobes = [](double t) { return 1e-4 * std::cos(3 * t); };  // no stuck probe
   probe("p.csv", [&](double t, double) { return 15.0 + lobes(t); }, 360, {0.0, 10.0});

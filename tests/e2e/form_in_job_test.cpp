@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Sections of 120 readings a turn, which carry 1-15 UPR, of a shaft with an effect.
+/// Sections of 120 readings per revolution, which carry 1-15 UPR, of a shaft with an effect.
 std::string sections_with(const std::string& effect) {
   std::string text =
       "seed = 5\n[part]\nkind = \"cylinder\"\nx0_um = 30\ny0_um = -20\nradius_mm = 20\n"

@@ -52,7 +52,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// Why the line is no command of the program, empty where it is one.
+/// Why the line is not a command of the program; empty if it is one.
 std::string trouble(const std::string& line, const Commands& commands) {
   const std::vector<std::string> words = words_of(line);
   if (words.size() < 2 || words[1].starts_with("--")) return "";

@@ -7,8 +7,8 @@
 #include "support/command_fixture.hpp"
 #include "support/own_probe.hpp"
 
-/// Streams that are no probe's readings of one part, or not all of them: each is refused with its
-/// reason, or its axis is right within its U. Parts and probe are those of own_probe.hpp.
+/// Streams that are not a probe's readings of one part, or not all of them: each is refused with
+/// its reason, or its axis is right within its U. Parts and probe are those of own_probe.hpp.
 namespace trueaxis::testing {
 namespace {
 
@@ -146,7 +146,7 @@ TEST_F(Implausible, AnotherChannel) {
   expect_refused(stream, "X_M is not from a probe");
 }
 
-// A coarse sensor on a part that runs true shows the same value for long, and is none.
+// A coarse sensor on a part that runs true shows the same value for long, and is not a stuck one.
 TEST_F(Implausible, ACoarseSensorIsNotStuck) {
   const Part nearly_true{.x_mm = 0.011, .y_mm = 0.004, .slope_x = 1e-5, .slope_y = 0.0};
   Stream stream = helix(nearly_true);

@@ -235,7 +235,8 @@ TEST_F(LinuxCncKinematics, AMachineWithErrorsFollowsTheCompensatedPath) {
 }
 
 // LinuxCNC itself, its task, planner and motion at 1 kHz, runs the compensated program in pieces;
-// what its joints are told every millisecond the module turns into where the tip then really is.
+// the module turns the commands of its joints, every millisecond, into where the tip then really
+// is.
 TEST_F(LinuxCncKinematics, TheControlKeepsTheCompensatedPathWithinTheTolerance) {
   if (shell("command -v linuxcnc").exit_code != 0 || !builds_client("/usr/bin/halcompile"))
     GTEST_SKIP() << "linuxcnc or halcompile (linuxcnc-uspace-dev) is not installed";

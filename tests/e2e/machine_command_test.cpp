@@ -15,7 +15,7 @@ const std::string data = places::source() + "/data/five_axis/";
 const std::string machine = data + "trunnion_ac.toml ";
 const std::string errors = " --errors " + data + "trunnion_ac_errors.toml";
 
-/// Rows of a CSV behind its header and comments.
+/// Rows of a CSV after its header and comments.
 std::vector<std::vector<double>> rows_of(const std::string& text) {
   std::vector<std::vector<double>> rows;
   std::istringstream lines(text);
@@ -132,7 +132,7 @@ TEST_F(MachineCommand, OtherMakersTablesGoThereAndBack) {
                   format + " --output-sign " + sign + " -o " + name);
       ASSERT_EQ(written.exit_code, 0);
       EXPECT_TRUE(contains(written.out, "table  1001 points an axis")) << written.out;
-      // The reference of X is none of these formats'; its errors are few: without it C turns about
+      // None of these formats has the reference of X; its errors are few: without it C turns about
       // 0 instead of z = -100, of which ECX knows nothing.
       expect_row(
           "machine pose --machine " + machine + positions + " --errors " + name + " --sign " + sign,

@@ -76,7 +76,7 @@ TEST(MachineDiagnosisCommand, SaysTheTermWithItsNumbers) {
   EXPECT_EQ(d.at("findings")[0].at("alias"), "order 10");
 }
 
-// Who reads the result takes no id apart: title, kind, axis and error of each are beside it.
+// A reader of the result takes no id apart: title, kind, axis and error of each come with it.
 TEST(MachineDiagnosisCommand, SaysWhatIsBehindEveryId) {
   const json d = diagnosed();
   const json& effects = d.at("effects");

@@ -30,7 +30,7 @@ class MachineJobCommand : public CommandTest {
   static double um(const nlohmann::json& of) { return 1e3 * of.at("value").get<double>(); }
 };
 
-/// Largest tip error of a program by the hidden machine, the part's displacement taken off, µm.
+/// Largest tip error of a program by the hidden machine, the part's displacement subtracted, µm.
 double by_truth_um(const std::vector<FiveAxes>& ends, const std::vector<FiveAxes>& wanted) {
   const std::string folder = places::source() + "/data/five_axis/";
   const Machine machine = read_machine_toml(folder + "zxacy.toml").machine;
@@ -81,7 +81,7 @@ TEST_F(MachineJobCommand, TheBladeIsTruerByTheMachineThatWasHidden) {
 }
 
 // Between its blocks the blade's program leaves the line by 0.2 mm: no go until they are cut in
-// pieces; then the tolerance against left + U decides, and a program stands there with a go only.
+// pieces; then the tolerance against left + U decides, and a program is there with a go only.
 TEST_F(MachineJobCommand, TheToleranceDecides) {
   job("", "[part]\ntolerance_um = 30\n");
   const CommandStreams whole = command("run job.toml -o out");

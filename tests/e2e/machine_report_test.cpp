@@ -76,7 +76,7 @@ TEST_F(MachineReportPage, NoGoOutOfLimits) {
   expect_sound_page(result, "machine_no_go");
 }
 
-// Every kind of remark at once: rivals, what is unexplained and what is not corrected.
+// Every kind of remark at once: rival causes, what is unexplained and what is not corrected.
 TEST_F(MachineReportPage, FindingsWithRivalsAndTheUnexplained) {
   MachineJobResult result = run_machine_job(blade_job());
   MachineFinding found = result.diagnosis.findings.front();

@@ -66,7 +66,7 @@ double rms(const std::vector<double>& off_mm, const std::vector<bool>& kept) {
   return std::sqrt(sum / count);
 }
 
-/// Beyond 3.5 robust σ (1.4826 times the median of the sizes) a point is left out, until no more
+/// Beyond 3.5 robust σ (1.4826 times the median of the sizes) a point is excluded, until no more
 /// is.
 std::vector<bool> trimmed(const Trace& trace) {
   std::vector<bool> kept(trace.x_mm.size(), true);
@@ -138,7 +138,7 @@ TEST_F(MeasuredJob, SecondHarmonicIsTheOffCentreCircle) {
     EXPECT_FALSE(finding.at("parameters").contains("order")) << finding;
 }
 
-// Nothing found: the cross-validated gain is none, and it is not claimed.
+// Nothing found: there is no cross-validated gain, and none is claimed.
 TEST_F(MeasuredJob, ClaimsNoGain) {
   const auto diagnosis = result("out/diagnosis_1_specimen.json");
   ASSERT_TRUE(diagnosis.at("findings").empty());

@@ -189,7 +189,7 @@ TEST_F(MeasurementMistakes, SignsAndColumns) {
 }
 
 // With the axes on the ball all signs turned are a machine with all errors turned: it fits as well.
-// Where the axes stand off the ball by more than its errors, as a probe leaves them, they do not.
+// If the axes are off the ball by more than its errors, as a probe leaves them, they do not.
 TEST_F(MeasurementMistakes, AllSigns) {
   rows(scaled({"dX", "dY", "dZ"}, -1.0));
   EXPECT_EQ(

@@ -93,7 +93,8 @@ TEST_F(PlanCommand, SaysWhatForbidsAPlan) {
   EXPECT_TRUE(contains(bare.out, "--free")) << bare.out;
 }
 
-// 5 % of outliers of 0.1 mm are 22 µm RMS beside 3: the plain fit cannot meet what the bound does.
+// 5 % of outliers of 0.1 mm are 22 µm RMS compared with 3: the plain fit cannot meet what the bound
+// does.
 TEST_F(PlanCommand, AGoalThatTheFitMissesIsNotConfirmed) {
   std::string spoilt = scenario;
   spoilt.replace(spoilt.find("sigma_um = 3"), 12,
@@ -125,8 +126,9 @@ TEST_F(PlanCommand, SaysWhichBoundAFitThatWastesNeeds) {
   EXPECT_NEAR(std::stod(done.out.substr(at + 19)), 0.72 * std::sqrt(0.7), 0.1 * 0.6) << "seed 11";
 }
 
-// Three lobes of 8 µm are 5.7 µm RMS beside 3: σ as the fits see it is 2.1 times as large, the axis
-// hardly moves. U as it is: 2 × 3 √(8/413) = 0.84 µm by the bound, 1.8 µm as the fits state.
+// Three lobes of 8 µm are 5.7 µm RMS compared with 3: σ as the fits see it is 2.1 times as large,
+// the axis hardly moves. U as it is: 2 × 3 √(8/413) = 0.84 µm by the bound, 1.8 µm as the fits
+// state.
 TEST_F(PlanCommand, DoesNotRecommendWhereTheFitsStateMoreThanTheGoal) {
   const std::string lobes = "[[effect]]\nid = \"part.roundness\"\norder = 3\namplitude_um = 8\n";
   const std::string ask =
@@ -145,7 +147,8 @@ TEST_F(PlanCommand, DoesNotRecommendWhereTheFitsStateMoreThanTheGoal) {
   const nlohmann::json& confirmed = plan.at("not_confirmed").at(0).at("confirmed");
   EXPECT_TRUE(confirmed.at("states_more"));
   EXPECT_FALSE(confirmed.at("misses"));
-  // What is said to reach it does: 1.79² = 3.2 times the turns, and a tenth for the digits.
+  // The plan that promises to reach it does: 1.79² = 3.2 times the turns, and a tenth for the
+  // digits.
   const std::size_t at = done.out.find("(a feed of ");
   ASSERT_NE(at, std::string::npos) << done.out;
   const double feed_mm = std::stod(done.out.substr(at + 11)) / 1.1;

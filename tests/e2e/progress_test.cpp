@@ -33,7 +33,7 @@ TEST_F(ProgressLine, SaysWhatADiagnosisIsAtAndGoes) {
   ASSERT_NE(line, std::string::npos) << "was it done within 2 s? " << run.shown;
   const std::size_t gone = run.shown.find("\r\x1b[K", run.shown.rfind("diagnosis of long.csv, "));
   ASSERT_NE(gone, std::string::npos) << run.shown;
-  EXPECT_GT(run.shown.find("EFFECTS"), gone) << run.shown;  // the result stands on a clean line
+  EXPECT_GT(run.shown.find("EFFECTS"), gone) << run.shown;  // the result is on a clean line
 }
 
 TEST_F(ProgressLine, IsNotInAPipe) {

@@ -71,7 +71,7 @@ TEST_F(QifSchema, AnAssociationThroughPointsIsValid) {
   ASSERT_TRUE(std::filesystem::exists(folder_ / "a.qif"));
 }
 
-// The stub is not so lax that it lets a number through that is none.
+// The stub is not so lax that it accepts text as a number.
 TEST_F(QifSchema, TheStubRefusesWhatIsNoDecimal) {
   for (const char* form : {"1e-7", "0.0000000000000000000012345678", "1,5", ""}) {
     std::ofstream(folder_ / "bad.qif")

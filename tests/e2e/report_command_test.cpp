@@ -93,7 +93,7 @@ TEST_F(ReportCommand, WhatIsNotDeterminedHasAPageToo) {
   expect_sound(page("page.html"), "fit_not_determined");
 }
 
-// A machine's residuals have no file; its page is tested beside its diagnosis.
+// A machine's residuals have no file; its page is tested with its diagnosis.
 TEST_F(ReportCommand, OfAMachineThatIsNotReadThereIsNone) {
   EXPECT_EQ(command("machine diagnose ball.csv --machine m.toml --report page.html").exit_code, 3);
   EXPECT_EQ(command("machine diagnose ball.csv --machine m.toml --residuals r.csv").exit_code, 2);

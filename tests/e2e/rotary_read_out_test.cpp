@@ -86,7 +86,7 @@ TEST_F(RotaryReadOut, AGearIsStatedOrFoundOverSeveralTurns) {
   read_out('C', 0.0, 4.0, 450, belt);
   ASSERT_EQ(calibrate().exit_code, 0);
   EXPECT_NEAR(value_of(result("r.json").at("read_outs")[0].at("period")), 143.0, 0.01);
-  // Over one turn and a half the same is no period of its own.
+  // Over one turn and a half the same is not a period of its own.
   read_out('C', 0.0, 4.0, 135, belt);
   const CommandStreams done = calibrate();
   if (done.exit_code == 0) {

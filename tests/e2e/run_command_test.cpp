@@ -185,7 +185,7 @@ TEST_F(CorrectCommand, AFitHasItsDiagnosisBesideItOrSaysThatItHasNone) {
   const CommandStreams beside = command("table fit.json --diagnosis d.json --target job.toml -o -");
   EXPECT_EQ(beside.out, table) << beside.err;
   const CommandStreams ideal = command("table fit.json --ideal --target job.toml -o -");
-  // Nothing was found: the axis is that of the ideal surface, its u without what the passes do not
+  // Nothing was found: the axis is that of the ideal fit, its u without what the passes do not
   // show.
   const auto without_u = [](std::string text) {
     const std::size_t line = text.find("# target_axis"), u = text.find(", u ", line);

@@ -30,7 +30,7 @@ class RunRefusals : public CommandTest {
     return command("run job.toml -o out");
   }
 
-  /// The reason stands in the text, in the result and in the page; there is no table.
+  /// The reason is in the text, in the result and in the page; there is no table.
   void expect_refusal(const CommandStreams& done, const std::string& reason) {
     EXPECT_EQ(done.exit_code, 1) << done.err;
     const std::string line = first_line(done.out);
@@ -53,14 +53,14 @@ constexpr int seed = 4;
 
 constexpr const char* radial_slip = "id = \"part.slip\"\ntime_s = 12\ndx_um = 20\ndy_um = 0\n";
 
-// One that is sure is no refusal: the axis given is that of the part after the slip.
+// One that is sure is not refused: the axis given is that of the part after the slip.
 TEST_F(RunRefusals, ARadialSlipIsSaid) {
   const CommandStreams done = run_with(radial_slip, "2", 50.0, seed);
   EXPECT_EQ(done.exit_code, 0) << done.err;
   const std::string line = first_line(done.out);
   EXPECT_EQ(line.rfind("GO: ", 0), 0u) << line;
   EXPECT_TRUE(contains(line, "the axis given is that of the part after the slip")) << line;
-  // A step at 0.6 of the length leaves 0.24 − 0.12² · 12 = 0.0672 of its square beside an axis with
+  // A step at 0.6 of the length leaves 0.24 − 0.12² · 12 = 0.0672 of its square after an axis with
   // a slope; each component is seen through a cosine, mean square ½.
   const double u_um = 2.0 / std::sqrt(487.0 * 0.5 * 0.0672);
   const std::string said = "the part slipped in the chuck at 12.0 s by ";
@@ -130,7 +130,7 @@ TEST_F(RunRefusals, FindingsThatItReproduces) {
       "id = \"part.roundness\"\norder = 3\namplitude_um = 2.5\nphase_rad = 0.7\n", "5", -5.0, 1);
   EXPECT_EQ(done.exit_code, 0) << done.out;
   EXPECT_EQ(done.out.rfind("GO: ", 0), 0u) << done.out;
-  // The lathe agrees with the model, which left less than the ideal surface: λ is 0 but for what
+  // The lathe agrees with the model, which left less than the ideal fit: λ is 0 but for what
   // the terms' linearisation leaves, far below its u.
   const json back = simulated_again().at("j_test_lambda");
   EXPECT_LT(std::abs(back.at("value").get<double>()), 0.2 * back.at("u").get<double>());

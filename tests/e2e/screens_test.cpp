@@ -89,7 +89,7 @@ TEST_F(Screens, OfLathesFit) {
   for (const std::string& one : lathe_commands()) expect_a_screen(one);
 }
 
-// No line is wider than the terminal, and no number stands apart from its unit.
+// No line is wider than the terminal, and no line break separates a number from its unit.
 TEST_F(Screens, KeepToTheTerminal) {
   const std::regex torn("[0-9]\r?\n +(µm|mm|µrad|deg|rpm|±)");
   for (const unsigned short columns : {80, 120})
@@ -110,7 +110,8 @@ TEST_F(Screens, KeepToTheTerminal) {
     }
 }
 
-// GUM 7.2.6: value and U end at the same digit; wherever one stands with ±, screens and --verbose.
+// GUM 7.2.6: value and U end at the same digit; wherever there is a ±, on screens and with
+// --verbose.
 TEST_F(Screens, ValuesHaveTheDigitsOfTheirU) {
   const std::regex pair("(-?[0-9]+)(\\.[0-9]+)? ± ([0-9]+)(\\.[0-9]+)?(e[-+]?[0-9]+)?");
   auto all = machine_commands();

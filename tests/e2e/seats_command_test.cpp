@@ -177,7 +177,7 @@ std::set<double> numbers_of(const std::string& text) {
   return out;
 }
 
-/// Quantities {value, u} of a result that stand nowhere among the numbers of a page: rounded to two
+/// Quantities {value, u} of a result that are nowhere among the numbers of a page: rounded to two
 /// digits of u (at most u/10 off), without u to six.
 void expect_all_there(const json& part, const std::set<double>& shown, std::size_t& count) {
   if (part.is_object() && part.contains("value") && part["value"].is_number()) {

@@ -5,7 +5,7 @@
 #include "support/command_fixture.hpp"
 #include "support/places.hpp"
 
-/// Sweeps whose scenario cuts: what is left on the part, against plain geometry.
+/// Sweeps whose scenario cuts: the residual on the part, against plain geometry.
 namespace trueaxis::testing {
 namespace {
 
@@ -48,12 +48,12 @@ TEST_F(SweepCut, UncorrectedItIsTheReferencesOwnEccentricity) {
   EXPECT_TRUE(row(cells[0], "coaxiality")["bound"].is_null());
 }
 
-// Followed without error what is left goes with the noise: nothing without (10 nm: the virtual
-// lathe's table is linear between 360 rows a turn, A (π/360)²/2 of 0.11 mm being 4 nm), and ten
-// times the noise leaves ten times as much, as closely as 50 repeats tell: a length of two
-// components has squares that scatter by their mean at most, so that a root mean square does by
-// 1/(2 √50), the ratio by √2 of it, and four times that is 40 %. The diameter that a run states is
-// kept in 95 of 100: within five standard deviations of a binomial of 50.
+// Followed without error the residual goes with the noise. Without noise there is nothing (10 nm:
+// the virtual lathe's table is linear between 360 rows per revolution, A (π/360)²/2 of 0.11 mm
+// being 4 nm). Ten times the noise leaves ten times as much, as closely as 50 repeats tell. A
+// length of two components has squares that scatter by their mean at most. A root mean square
+// therefore scatters by 1/(2 √50), the ratio by √2 of it, and four times that is 40 %. The diameter
+// that a run states is kept with 95 %: within five standard deviations of a binomial of 50.
 TEST_F(SweepCut, CorrectedItGoesWithTheNoise) {
   const auto cells = cells_of("use = \"wanted\"\n",
                               "[[axis]]\nkey = \"noise.sigma_um\"\nvalues = [0, 1, 10]\n", 50, "2");

@@ -41,7 +41,7 @@ TEST_F(SweepForm, IsHeldAgainstWhatDenseReadingsWithoutNoiseShow) {
   const double range_mm = 1e-3 * std::exp2(-std::pow(3.0 / 15.0, 2));
   for (const char* circle : circles) {
     EXPECT_NEAR(row(cells[0], circle).at("true").get<double>(), range_mm, 1.2e-4 * range_mm);
-    // Of 40 repeats that are right in 95 of 100, fewer than 30 hold the truth once in 10⁵ sweeps.
+    // If repeats are right with 95 %, fewer than 30 of 40 hold the truth once in 10⁵ sweeps.
     for (const nlohmann::json& cell : cells)
       EXPECT_GE(row(cell, circle).at("coverage").at("value").get<double>(), 0.75) << circle;
     // A range grows with the noise: of σ = 0.4 µm, of which 15 of 53 orders pass, by some 0.4 µm.

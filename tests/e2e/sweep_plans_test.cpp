@@ -35,7 +35,7 @@ class SweepPlans : public CommandTest {
     throw std::runtime_error("no row " + name);
   }
 
-  /// The bias is `expected` within five of its standard uncertainties: by chance 1 in 10⁶ is not.
+  /// The bias is `expected` within five of its standard uncertainties: 1 in 10⁶ is not.
   static void expect_bias(const nlohmann::json& cell, const std::string& name, double expected) {
     const nlohmann::json& bias = row(cell, name)["bias"];
     EXPECT_NEAR(bias["value"].get<double>(), expected, 5.0 * bias["u"].get<double>())
@@ -73,8 +73,8 @@ TEST_F(SweepPlans, ALateProbeTurnsTheEccentricity) {
 // There and back the radius in the middle differs by 2 v delay tan(half angle), v = 2 mm/s: 0.5
 // mm/s times the delay. Its u is twice that of all readings together; times 2π/s × 0.216 mm, where
 // x is at the far end, it widens the u of y there. A backlash would do the same to the radius and
-// nothing to the eccentricity: that the readings cannot tell the two widens it further, by the 2.7
-// µm between their axes times the root of the probability of a rival that is not named, at most one
+// nothing to the eccentricity: the readings cannot tell the two, which widens it further. The width
+// is the 2.7 µm between their axes times the root of the probability of a rival cause, at most one
 // half.
 TEST_F(SweepPlans, ASecondSpeedTellsItBest) {
   const nlohmann::json& back = cell("there and back", "late by 2 ms", "diagnosis");

@@ -144,7 +144,7 @@ TEST_F(SweepReport, SaysWhichOfBoundRatioAndResultIsMissing) {
   EXPECT_EQ(log.find("No bound"), std::string::npos) << log;
 }
 
-// A window of 1400 px has room for the table of a cylinder and one axis; a phone has not.
+// A window of 1400 px has room for the table of a cylinder and one axis; a phone does not.
 TEST_F(SweepReport, TheTableTakesTheWidthThatThereIs) {
   study::Sweep sweep;
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);

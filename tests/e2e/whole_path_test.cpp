@@ -169,7 +169,7 @@ TEST_F(WholePath, PlanesThatAreTiltedStandStill) {
     ASSERT_EQ(words.size(), 6u);
     EXPECT_NE(words[0], "B30");
     EXPECT_NE(words[1], "C45");
-    EXPECT_LT(std::abs(std::stod(words[5].substr(1))), 1e-4);  // B stands 1e-3° from the pole
+    EXPECT_LT(std::abs(std::stod(words[5].substr(1))), 1e-4);  // B is 1e-3° from the pole
     // Where they are positioned away from the pole the direction is right: a hundredth of it.
     const BcTrunnion bc(folder_);
     const auto was = PlainControl(planes).moves,

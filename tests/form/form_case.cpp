@@ -96,7 +96,7 @@ Drawn draw(std::uint64_t seed, std::size_t readings) {
   for (const Lobes& one : part.lobes)
     out.largest_um = std::max(out.largest_um, 1e3 * one.amplitude_mm);
   const double count = static_cast<double>(readings);
-  // Turns: of 20 to 90 readings each, sections of fewer, so that none carries a standard band.
+  // Turns have 20 to 90 readings each, sections fewer, so that none carries a standard band.
   const double per_turn =
       out.sections ? draw.between(20.0, std::min(90.0, count / 5.0))
                    : draw.between(std::min(18.0, count / 5.0), std::min(90.0, count / 4.0));

@@ -7,8 +7,8 @@
 namespace trueaxis::form_study {
 namespace {
 
-// Of 80 intervals that hold 93 in 100 truths, fewer than 65 hold in 1.2 of 10⁴ seeds; of 80 that
-// hold 75, at least 65 do in 12 of 100.
+// If intervals hold the truth with 93 %, fewer than 65 of 80 do in 1.2 of 10⁴ seeds; with 75 %, at
+// least 65 do in 12 %.
 TEST(FormStudy, IntervalsHoldTheTruth) {
   constexpr int cases = 80, fewest = 65;
   int ront = 0, cylt = 0, bounds = 0;

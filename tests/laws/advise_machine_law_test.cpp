@@ -69,8 +69,8 @@ std::vector<Visit> grid_of(const Machine& machine, const std::vector<double>& a_
   return visits;
 }
 
-/// The positions of a plan behind those before: a ball that is there stays, and one that is new
-/// stands some tenths off the place that was planned.
+/// The positions of a plan after those before: a ball that is there stays, and a new one is some
+/// tenths off the planned place.
 std::vector<Visit> with_plan(std::vector<Visit> visits, const MachinePlan& plan) {
   std::map<int, Vector3> standing;
   for (const Visit& one : visits) standing[one.number] = one.ball;
@@ -165,7 +165,7 @@ TEST(AdviseMachineLaw, APlanShowsWhatItPromises) {
   expect_kept(count);
 }
 
-// The first plan, of readings of 2 µm: all that it is said to show it shows in nine of ten.
+// The first plan, with readings of 2 µm: all that it promises to show it shows in nine of ten.
 TEST(AdviseMachineLaw, TheFirstPlanShowsWhatItPromises) {
   const Machine machine = trunnion();
   MachineDiagnoseOptions options;
@@ -261,7 +261,7 @@ class Columns {
   MatrixXd basis_ = MatrixXd(static_cast<Index>(3 * visits_.size()), 0);
 };
 
-// Beside what is fitted and what was found, each effect is shown, is of a class that was named, or
+// After what is fitted and what was found, each effect shows, belongs to a class that was named, or
 // is listed: with λ of less than 9 no test at this level finds it in one of ten measurements.
 TEST(AdviseMachineLaw, ListsAllThatIsNotShown) {
   const Machine machine = trunnion();

@@ -40,7 +40,7 @@ Diagnosis diagnosis_of(const Scenario& scenario) {
   return diagnose(simulate(scenario), options);
 }
 
-/// The measurement advised for telling the finding's class, as its words say it.
+/// The measurement advised for telling the class of the cause, as its words say it.
 struct Advised {
   double fast_rpm = 0.0, off_centre_mm = 0.0;
 };
@@ -84,8 +84,8 @@ struct Case {
 
 class AdvisedTiming : public ::testing::TestWithParam<Case> {};
 
-// A plan is advised where d = 4.1: of the two, the true one is then ahead by 7 in Λ in 89 % of
-// repeats (theory, §11), so that five of eight are named alone in all but 0.5 %; and by Eq. 91 the
+// A plan is advised where d = 4.1: the true one of the two is then ahead by 7 in Λ in 89 % of
+// repeats (theory, §11). Five of eight are therefore named alone in all but 0.5 %; by Eq. 91 the
 // wrong one is named alone in 0.4 % at most.
 TEST_P(AdvisedTiming, TellsInTheLathe) {
   constexpr int repeats = 8;

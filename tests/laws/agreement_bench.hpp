@@ -9,7 +9,7 @@
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
-/// Two references of one part, a cone seat and a journal beside it, as the virtual lathe probes
+/// Two references of one part, a cone seat and a journal next to it, as the virtual lathe probes
 /// them.
 namespace trueaxis::testing {
 

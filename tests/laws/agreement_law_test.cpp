@@ -102,7 +102,7 @@ TEST_P(AgreementNames, TheMistake) {
       << to_string(GetParam().what) << ", seeds 1 to 50";
 }
 
-// Seen of 200: 196, 197, 197, 200, 200, 123 (where a small eccentricity is no mistake), 200 and
+// Seen of 200: 196, 197, 197, 200, 200, 123 (where a small eccentricity is not a mistake), 200 and
 // 179. The limits are three standard deviations of 50 below.
 INSTANTIATE_TEST_SUITE_P(Law, AgreementNames,
                          ::testing::Values(Named{ReasonCode::column_reversed, "C", 45},

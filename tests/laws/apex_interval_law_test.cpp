@@ -64,10 +64,10 @@ bool holds(const Estimate& estimate, double truth) {
 
 class ApexInterval : public ::testing::TestWithParam<NoiseCase> {};
 
-// Of k and of the half angle those beyond U on the side of the cylinder are the ones that are not
-// told from it, so that of the others more are inside: a normal law cut at 3 u. 1.5 % is what is
-// asked for; shares of 500 streams scatter binomially about any share within it (1e-4 to either
-// side: 72 shares are looked at).
+// The k and half angles beyond U on the side of the cylinder are those that are not told from it.
+// More of the others are therefore inside: a normal law cut at 3 u. 1.5 % is what is asked for;
+// shares of 500 streams scatter binomially about any share within it (1e-4 to either side: 72
+// shares are looked at).
 TEST_P(ApexInterval, HoldsTheApex) {
   const NoiseCase& noise = GetParam();
   constexpr double level = 1e-4, within = 0.015;

@@ -23,7 +23,7 @@ double apart_mm(const FitResult& a, const FitResult& b) {
 }
 
 // Two undulations of some tenths of a µm that grow along a small cylinder look like a probe that is
-// millimetres off its height, by which the axis would be tens of µm elsewhere.
+// millimetres off its height. The axis would then be tens of µm elsewhere.
 TEST(AveragedAxis, FollowsNoCauseThatIsImplausiblyLarge) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
     Scenario s = probed_part(PartKind::cylinder);
@@ -43,8 +43,8 @@ TEST(AveragedAxis, FollowsNoCauseThatIsImplausiblyLarge) {
     options.fit.surface = SurfaceKind::cylinder;
     const Diagnosis d = diagnose(simulate(s), options);
     for (const Finding& finding : d.findings) EXPECT_NE(finding.effect(), "probe.height");
-    // The ideal axis is off by thousandths of the ovality and by its noise. A height with a chance
-    // of some thousandths keeps its share of U.
+    // The ideal axis is off by thousandths of the ovality and by its noise. A height with a
+    // probability of some thousandths keeps its share of U.
     EXPECT_LT(apart_mm(d.extended, d.baseline), 5e-4) << "seed " << seed;
     EXPECT_LT(d.extended.axis.u_at(0.0), 3e-3) << "seed " << seed;
   }
@@ -68,7 +68,7 @@ TEST(AveragedAxis, HoldsWhatThePassDoesNotShowUnlessItIsStated) {
                             {Influence::Kind::probe_gain, 0.0}};
   const Diagnosis stated = diagnose(stream, options);
   ASSERT_EQ(open.verdict, DiagnosisVerdict::ideal);
-  EXPECT_LT(apart_mm(open.extended, open.baseline), 1e-9);  // the ideal fit stands
+  EXPECT_LT(apart_mm(open.extended, open.baseline), 1e-9);  // the ideal fit stays
   const double u2 = std::pow(open.extended.axis.u_at(20.0), 2),
                u2_stated = std::pow(stated.extended.axis.u_at(20.0), 2);
   EXPECT_GT(u2 - u2_stated, 0.2 * 0.05 * std::pow(std::hypot(0.15, 0.1) / 17.0, 2));
@@ -78,7 +78,7 @@ TEST(AveragedAxis, HoldsWhatThePassDoesNotShowUnlessItIsStated) {
       stated.shares, [](const AxisShare& share) { return share.effect == "probe.height"; }));
 }
 
-// After the last turn the part slips while the spindle stands: what is read then shows where it
+// After the last turn the part slips while the spindle is at rest: what is read then shows where it
 // went along the probe line, not across. U is of the size of a slip there, not of the noise.
 TEST(AveragedAxis, OfAPartThatSlippedUnderAStandingSpindleIsOpenAcrossTheProbeLine) {
   for (const std::uint64_t seed : {1, 2, 3}) {
@@ -152,8 +152,8 @@ TEST(AveragedAxis, IsOpenByAShareOfWhatNoCauseExplains) {
   }
 }
 
-// Of a face the named model stands, and the rivals of what was found are listed with what each
-// would do: two undulations at one radius are the part's or the spindle's, the same column.
+// For a face the named model stays, and the rival causes of what was found are listed with what
+// each would do: two undulations at one radius are the part's or the spindle's, the same column.
 TEST(AveragedAxis, OfAFaceTheNamedModelStandsAndItsRivalsAreListed) {
   Scenario s = probed_part(PartKind::face);
   s.noise.sigma_mm = 0.001;

@@ -24,7 +24,7 @@ Scenario reference(PartKind kind) {
   scenario.part.kind = kind;
   if (kind == PartKind::cylinder) scenario.part.half_angle_rad = 0.0;
   if (kind == PartKind::face) {
-    // Its axis stands where the spindle's pierces it, as a diagnosis takes it.
+    // Its axis is where the spindle's pierces it, as a diagnosis assumes.
     virtual_lathe::Part& part = scenario.part;
     const double n2 = 1.0 - part.l * part.l - part.m * part.m;
     part.d_mm = 12.0, part.half_angle_rad = 0.0;
@@ -39,7 +39,7 @@ class AxisBiasLaw : public ::testing::TestWithParam<PartKind> {};
 
 // bias(a)/a = projection + O(a): half the size halves the error, and 2 × half − whole has none but
 // what the third order leaves, which is less than the second where sizes are small. Rounding is
-// that of contacts, and must itself be small beside the bias.
+// that of contacts, and must itself be small compared with the bias.
 TEST_P(AxisBiasLaw, LatheGoesToTheProjectionAsTheSizeGoesToZero) {
   const Scenario scenario = reference(GetParam());
   for (const AxisBiasCase& one : axis_bias_cases(scenario)) {
@@ -76,13 +76,13 @@ TEST_P(AxisBiasLaw, TheExtendedModelHasNoFirstOrderLeft) {
     EXPECT_GE(row.u_ratio, 0.99);
     ++separable;
   }
-  // What goes around otherwise than once is no axis: of each part many effects are such.
+  // What goes around otherwise than once is not an axis: each part has many such effects.
   EXPECT_GE(separable, 10);
 }
 
 // A gauge whose nominal radius is off by 0.137 mm (a whole period of the cyclic case) misses the
-// axis by some nm without any effect, which is no bias of one. What is left is that the prediction
-// is about a part of another radius: proportional to the radius' error, 10 times that is wide.
+// axis by some nm without any effect. This is not a bias. The rest is that the prediction is about
+// a part of another radius: proportional to the radius' error, 10 times that is wide.
 TEST_P(AxisBiasLaw, ARelativeGaugesOwnErrorIsNoHarm) {
   if (GetParam() == PartKind::face) GTEST_SKIP() << "a face has no nominal radius";
   Scenario scenario = reference(GetParam());

@@ -9,7 +9,7 @@
 namespace trueaxis::testing {
 namespace {
 
-// σ of 200 readings beside the four numbers of a cubic is known to 1/√(2·196) = 5 %; four of these.
+// σ of 200 readings after the four numbers of a cubic is known to 1/√(2·196) = 5 %; four of these.
 TEST(AxisReadOut, AloneStatesItsRmsAndNoise) {
   Draw draw(6);
   const Machine machine = shop_machine("w C' A' Y' b X Z t", draw);

@@ -25,7 +25,8 @@ using testing::run_all;
 using testing::sweep_of;
 
 constexpr std::uint64_t seed = 20261121;
-constexpr double level = 0.01;  // chance that an efficient engine fails a test, over all its cells
+constexpr double level =
+    0.01;  // probability that an efficient engine fails a test, over all its cells
 
 /// RMSE over the bound within χ², coverage of U (k = 2) within the binomial of Student's t; each
 /// cell at level / tests.
@@ -81,7 +82,7 @@ Scenario clamped_twice(PartKind kind) {
   return scenario;
 }
 
-/// A gauge that does not know the radius but is told it, in the middle of what is probed.
+/// A gauge that does not know the radius but has it stated, in the middle of what is probed.
 Scenario with_gauge(Scenario scenario) {
   const Part& part = scenario.part;
   scenario.probe.relative_zero_mm = 28.7;
@@ -139,7 +140,7 @@ TEST(Bound, IsReachedByASection) {
     twice.plan.setups[0].z_shift_mm = 0.0;  // else a cone has two radii there
     for (PlannedPass& pass : twice.plan.passes)
       pass.end_mm = pass.start_mm, pass.revolutions = 20.0;
-    // The centre of a tilted cone's section lies R slope tan beside the axis.
+    // The centre of a tilted cone's section lies R slope tan off the axis.
     if (kind == PartKind::cone) {
       scenario.part.l = scenario.part.m = twice.part.l = twice.part.m = 0.0;
       twice.plan.setups[0].l = twice.plan.setups[0].m = 0.0;

@@ -130,9 +130,9 @@ Study study_of(double size, int each) {
   return study;
 }
 
-// One number of a machine is drawn, so that draws are independent and inside by chance of 95 % or
-// more: the upper end of the exact binomial interval of 99.9 % falls below 95 % once in 2000. u is
-// not needlessly large where it stays below twice the error that there is.
+// One number of a machine is drawn, so that draws are independent and inside with a probability of
+// 95 % or more. The upper end of the exact binomial interval of 99.9 % falls below 95 % once in
+// 2000. The u is not needlessly large where it stays below twice the error that there is.
 TEST(CalibrateCoverage, CountsComponentErrorsThatNobodyFits) {
   const Study study = study_of(1.0, 16);
   study.print("component errors of 1-6 um, 5-30 urad");

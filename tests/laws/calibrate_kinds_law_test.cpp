@@ -44,8 +44,8 @@ MachineMeasurement measure_array(const BallBench& bench, double sigma_mm, Draw& 
   return out;
 }
 
-// Talyan et al. take the mean of an axis' error off the program; the error as a function of the
-// position is taken off beside it. Of 15 balls the mean square that three polynomials leave at the
+// Talyan et al. subtract the mean of an axis' error from the program; here the error as a function
+// of the position is subtracted. Of 15 balls the mean square that three polynomials leave at the
 // balls is 3 σ²/15 at least (Cramér-Rao), and at 3 standard deviations (1 + 3 √(2/3)) times that.
 TEST(CalibrateKinds, ArrayGivesTheErrorOfItsAxis) {
   constexpr double sigma_mm = 1e-3;

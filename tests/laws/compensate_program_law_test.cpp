@@ -220,7 +220,7 @@ TEST(CompensateProgramLaw, TheDifferentialMethodLeavesAQuarterOfHalvedErrors) {
     return compensate_program(MachineModel(one.machine, scaled.errors), text, "p.nc", options)
         .after.position.value;
   };
-  // What is left is of the second order; the third order is below the size of the errors, 1e-3.
+  // The residual is of the second order; the third order is below the size of the errors, 1e-3.
   EXPECT_NEAR(left(1.0) / left(0.5), 4.0, 0.05);
 }
 

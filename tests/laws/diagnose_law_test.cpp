@@ -145,13 +145,13 @@ bool is_searched(const LatheCase& c) {
 
 class EveryEffect : public ::testing::TestWithParam<LatheCase> {};
 
-/// Whose sizes are what one chooses beside them: jaws' beyond the probed length their place, a
+/// Whose sizes depend on what one chooses with them: jaws' beyond the probed length their place, a
 /// sensor's its zero and range, a drift's that is both linear and exponential the part of each.
 bool told_in_other_words(const std::string& id) {
   return id == "part.chuck_lobing" || id == "probe.nonlinearity" || id == "thermal.drift";
 }
 
-/// Parameters of the cause that bears the planted effect's name, beside what was planted:
+/// Parameters of the cause that bears the planted effect's name, next to what was planted:
 /// lengths, times and pure numbers (an angle has a zero of its own).
 void expect_planted_sizes(const Finding& finding, const std::map<std::string, double>& planted) {
   if (told_in_other_words(finding.effect())) return;
@@ -167,8 +167,8 @@ void expect_planted_sizes(const Finding& finding, const std::map<std::string, do
 }
 
 /// A statistic of 28 is found with power one half (Eq. 97): 5.3 σ of what the surface leaves.
-/// At five times that every naming is right with Φ(d/2), d = 26, unless the rival is a twin; at
-/// twenty times what is left out looks most like autocorrelation of the noise.
+/// At five times that every naming is right with Φ(d/2), d = 26, unless the rival cause is a twin;
+/// at twenty times the second order looks most like autocorrelation of the noise.
 constexpr double detectable_left = 5.3;
 constexpr double times[] = {5.0, 20.0};
 /// Above its largest typical size an effect still is one: five times.
@@ -221,7 +221,7 @@ std::string case_name(const ::testing::TestParamInfo<LatheCase>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, ::testing::ValuesIn(lathe_cases()), case_name);
 
-// Nothing hidden: nothing is found, and the extended model is the baseline, the same fit of the
+// Nothing hidden: nothing is found, and the final fit is the baseline, the same fit of the
 // same readings: equal to the last digits that its convergence leaves.
 TEST(NothingHidden, NothingFoundAndTheAxisStays) {
   std::cout << "seed " << seed << '\n';

@@ -48,7 +48,7 @@ bool may_be(const MachineDiagnosis& d, const std::string& effect) {
   });
 }
 
-// False alarms at 1 % a measurement: of 40 at most 3 (binomial, 99.9 %).
+// False alarms at 1 % per measurement: at most 3 of 40 (binomial, 99.9 %).
 TEST(DiagnoseMachineLaw, IsSilentWhereNothingIs) {
   int alarms = 0;
   const Machine machine = trunnion();
@@ -130,7 +130,7 @@ TEST(DiagnoseMachineLaw, NamesDriftReversalAndSlip) {
       last = data.axes[i][0];
       if (effect == "drift.Z") data.deviation_mm[i][2] -= 0.006 * static_cast<double>(i) / 240.0;
       if (effect == "reversal.X") data.deviation_mm[i][0] -= 0.005 * way;
-      // The ball stands elsewhere from row 75 on, in the part.
+      // The ball is elsewhere from row 75 on, in the part.
       if (effect == "ball.slip" && i >= 75 && data.ball[i] == 1) {
         const BallBench bench{machine, truth};
         const Matrix4 part = bench.workpiece(data.axes[i]);
@@ -176,7 +176,7 @@ double tips_apart_mm(const Machine& machine, const ErrorModel& a, const ErrorMod
   return most;
 }
 
-// Beside something unexplained the errors are those of a calibration, to rounding; without they are
+// With something unexplained the errors are those of a calibration, to rounding; without they are
 // not, as a calibration shrinks what a diagnosis names.
 TEST(DiagnoseMachineLaw, PredictsAsACalibrationBesideTheUnknown) {
   const Machine machine = trunnion();

@@ -21,7 +21,7 @@ struct Tally {
   std::size_t findings = 0, members = 0;
 };
 
-/// Whether each of two effects has λ of 50 and more beside the other.
+/// Whether each of two effects has λ of 50 and more after the other.
 bool told_beside(const infer::Dictionary& dictionary, std::size_t term, const Eigen::VectorXd& mu,
                  const std::vector<std::pair<std::size_t, Eigen::VectorXd>>& others) {
   const auto left = [&](std::size_t a, const Eigen::VectorXd& of_a, std::size_t b) {
@@ -34,9 +34,8 @@ bool told_beside(const infer::Dictionary& dictionary, std::size_t term, const Ei
   });
 }
 
-/// Effects that the plan shows, each drawn with λ of 60 to 400, of two each 50 and more beside the
-/// other, added to readings of a machine with
-/// location errors.
+/// Effects that the plan shows, each drawn with λ of 60 to 400, or two with 50 and more after each
+/// other. They are added to readings of a machine with location errors.
 void one_case(std::uint64_t seed, int effects, Tally& tally) {
   Draw draw(seed);
   const Machine machine = trunnion();
@@ -114,7 +113,7 @@ int cases_wanted(int usual) {
   return said != nullptr ? std::atoi(said) : usual;
 }
 
-// Named or in the class in 97 of 100: of 40 at least 36 (binomial, 99 %).
+// Named or in the class in 97 %: at least 36 of 40 (binomial, 99 %).
 TEST(DiagnoseMachinePower, OneEffectIsNamed) {
   Tally tally;
   const int cases = cases_wanted(40);

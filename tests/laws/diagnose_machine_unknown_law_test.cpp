@@ -13,7 +13,7 @@ namespace {
 
 constexpr double sigma_mm = 1e-3;
 
-/// EAA as degree 2 of A over −80 … 0°, and order 5 of C in EXC, which is no effect.
+/// EAA as degree 2 of A over −80 … 0°, and order 5 of C in EXC, which is not an effect.
 MachineDiagnosis diagnosed(double named_rad, double unknown_mm) {
   const Machine machine = trunnion();
   Draw draw(16);
@@ -53,7 +53,7 @@ TEST(DiagnoseMachineUnknownLaw, NamesWhatDoesMoreThanTheUnknown) {
   }));
 }
 
-// A ball that slips once is said to; one that slips twice goes along with something in time.
+// A ball that slips once is named; one that slips twice goes along with something in time.
 TEST(DiagnoseMachineUnknownLaw, ABallThatSlipsTwiceIsUnexplained) {
   const Machine machine = trunnion();
   for (const bool twice : {false, true}) {

@@ -37,7 +37,8 @@ double u_from_noise(const FitResult& fit, std::size_t parameter) {
 }
 
 // Half of the streams have the one cause and half the other, so that whichever is named is wrong in
-// many: the noise alone does not cover the errors then, what the rivals make of the axis does.
+// many: the noise alone does not cover the errors then, what the rival causes make of the axis
+// does.
 TEST(DiagnosedRivals, WidenTheUncertaintyOfTheAxis) {
   std::cout << "seeds from " << first_seed << '\n';
   constexpr int streams = 60;

@@ -76,7 +76,7 @@ TEST(SlipAtAnEnd, IsNotMadeOfOutliersAtAnEnd) {
   }
 }
 
-// One that leaves a turn behind it is a slip still: of 6 σ, λ is above 24 / 2 · 6² = 430.
+// One that leaves a turn after it is a slip still: with 6 σ, λ is above 24 / 2 · 6² = 430.
 TEST(SlipAtAnEnd, IsSeenATurnBeforeTheEnd) {
   Scenario scenario = turned_cylinder();
   const double per_s = simulate(scenario).time_s[1];

@@ -64,7 +64,7 @@ TEST_P(DiagnosedTiming, IsToldAndMovesTheAxisByNoSecondOrder) {
       EXPECT_GT(0.25 * second_order_mm, 3.0 * found.u[i]) << "too noisy to tell";
     }
   }
-  // What is left is the noise of 1 µm: its RMS scatters by 1 / √(2 N).
+  // The residual is the noise of 1 µm: its RMS scatters by 1 / √(2 N).
   double sum = 0.0;
   for (const double r : diagnosis.residual_after_mm) sum += r * r;
   const auto n = static_cast<double>(stream.size());

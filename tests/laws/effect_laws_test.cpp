@@ -100,7 +100,7 @@ TEST(EffectLaws, ChecksAndOwnEffectsAreFoundToo) {
   EXPECT_EQ(find_effect("part.bow", {&own, 1}), find_effect("part.bow"));
 }
 
-// What the virtual lathe has apart is told by its name; a law of the lathe plays every entry.
+// What the virtual lathe has apart is known by its name; a law of the lathe plays every entry.
 TEST(EffectLaws, NamesInTheLatheAreOfWhatBothHave) {
   for (const Effect& effect : effect_catalogue()) {
     SCOPED_TRACE(effect.id);
@@ -135,7 +135,7 @@ TEST(EffectLaws, SearchesFitTheirTerms) {
                         std::ranges::count(linear, p.of, &LinearParameter::name) == 1;
       EXPECT_TRUE(told) << p.name << " of " << p.of;
     }
-    // Another value of a parameter that the term reads is told by its name.
+    // Another value of a parameter that the term reads is known by its name.
     const auto reads = [&](double TermShape::*parameter) {
       TermShape other = shape;
       other.*parameter += 1.0;
@@ -197,7 +197,7 @@ TEST(EffectLaws, MisspeltIdsFindTheirNeighbour) {
   EXPECT_EQ(nearest_effects("part.bow", 2).size(), 2u);
 }
 
-// Two readings of a centred cylinder, R = 40: every number of the terms can be said beforehand.
+// Two readings of a centred cylinder, R = 40: every number of the terms is known beforehand.
 struct Bench {
   std::vector<double> c{0.0, 1.0}, z{-10.0, 10.0}, t{0.0, 2.0}, speed{6.0, 6.0}, v{1.0, -1.0};
   std::vector<double> x{40.0, 40.0}, flat{0.0, 0.0}, one{1.0, 1.0};

@@ -14,8 +14,8 @@
 namespace trueaxis::testing {
 
 /// A face on the virtual lathe, tilted by 1 mrad: out at 60 rpm, back at 151 rpm and out again,
-/// re-indexed. `across`: from beyond the axis. The part's axis stands where the spindle's pierces
-/// the face, as a diagnosis takes it.
+/// re-indexed. `across`: from beyond the axis. The part's axis is where the spindle's pierces the
+/// face, as a diagnosis assumes.
 struct FaceBench {
   std::string name;
   bool across = false;
@@ -55,7 +55,7 @@ struct FaceBench {
     return scenario;
   }
 
-  /// How the face stands: its axis at the height where the ball's centre runs above it.
+  /// The place of the face: its axis at the height where the ball's centre runs above it.
   diagnose_detail::Clamping clamping() const {
     const double n = std::sqrt(1.0 - l * l - m * m);
     diagnose_detail::Clamping clamping;

@@ -43,7 +43,7 @@ TEST_P(FaceLathe, StartsFromTheSameReadings) {
 
 // change(a)/a = column + O(a): half the size leaves half the error, and none but rounding where the
 // effect is linear. The axis of the lathe's part and that of the point agree to the tilt's square,
-// 1e-6 of 12 mm, which a spiral of 3 mm feed sees as 3e-5 of a turn.
+// 1e-6 of 12 mm. A spiral of 3 mm feed sees that as 3e-5 of a turn.
 TEST_P(FaceLathe, ColumnsAreTheLimitOfTheLathe) {
   const ProbeStream stream = virtual_lathe::simulate(bench().scenario());
   const diagnose_detail::LinearisationPoint point = bench().point(stream);
@@ -81,7 +81,7 @@ TEST_P(FaceLathe, ColumnsAreTheLimitOfTheLathe) {
   EXPECT_GE(compared, bench().ball_mm > 0.0 ? 10u : bench().cases().size());
 }
 
-// A face that stands elsewhere: the base columns are the lathe's readings of it, to the tilt's
+// A face that is elsewhere: the base columns are the lathe's readings of it, to the tilt's
 // square.
 TEST_P(FaceLathe, BaseColumnsAreTheFacePutElsewhere) {
   const ProbeStream stream = virtual_lathe::simulate(bench().scenario());

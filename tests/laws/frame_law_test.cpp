@@ -60,7 +60,7 @@ class FrameLaw : public ::testing::TestWithParam<std::string> {
     EXPECT_GE(used, 30);
   }
 
-  /// Same minimum: what is left of the last step is below 1e-5 of u (the minimiser's tolerance);
+  /// Same minimum: the rest of the last step is below 1e-5 of u (the minimiser's tolerance);
   /// `reading_mm` is what rounding of the transformed readings is worth.
   void expect(const Example& example, const FitResult& result,
               const std::map<std::string, double>& wanted, double reading_mm = 0.0) {

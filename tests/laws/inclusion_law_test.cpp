@@ -53,7 +53,7 @@ Drawn re_indexed(unsigned seed) {
   return out;
 }
 
-// Chance alone keeps a free order in the class in a tenth of the streams (10 %: none of 32 in 1 of
+// Noise alone keeps a free order in the class in a tenth of the streams (10 %: none of 32 in 1 of
 // 30 runs). Lobes of the jaws stay with the spindle too: they are possible indeed and may forbid.
 TEST(InclusionLaw, ChanceForbidsNoCleanMotion) {
   int beside = 0;

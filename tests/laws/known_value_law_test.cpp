@@ -52,9 +52,9 @@ double off_in_u(const Scenario& s, const Diagnosis& d) {
          d.extended.axis.u_at(z);
 }
 
-// One pass does not show a lag T: it turns the eccentricity e by ω T, 5.6 µm of the axis. Of lags
-// that are off what is stated by its u, U of 2 u holds the axis in 95 of 100 (of 20, fewer than 15
-// by a chance of 3e-4), and it is at least 2 e ω u and less than where nothing is stated.
+// One pass does not show a lag T: it turns the eccentricity e by ω T, 5.6 µm of the axis. If lags
+// are off their statement by its u, U of 2 u holds the axis with 95 % (fewer than 15 of 20 with a
+// probability of 3e-4). U is at least 2 e ω u and less than without a statement.
 TEST(KnownValue, OfALagThatOnePassDoesNotShowMakesTheAxisRightAndUSmall) {
   int within = 0;
   for (int k = 0; k < 20; ++k) {
@@ -95,7 +95,7 @@ TEST(KnownValue, IsRefutedByReadingsThatShowOtherwise) {
     const Diagnosis wrong = diagnosed(s, 3.0 * lag_s, u_lag_s);
     ASSERT_EQ(wrong.refuted.size(), 1U) << "seed " << seed;
     EXPECT_EQ(wrong.refuted[0].stated.kind, Influence::Kind::probe_lag);
-    // Of what remains, 2 ms, the second order ω² T² e is 0.6 µm and stays in the fit.
+    // The second order of what remains, 2 ms, ω² T² e, is 0.6 µm and stays in the fit.
     EXPECT_NEAR(wrong.refuted[0].seen.value, lag_s, 4.0 * tells_s + 0.05 * 2.0 * lag_s);
     EXPECT_TRUE(diagnosed(s, lag_s, u_lag_s).refuted.empty()) << "seed " << seed;
   }

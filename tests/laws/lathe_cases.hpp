@@ -207,7 +207,7 @@ inline std::vector<LatheCase> lateral_lathe_cases() {
        {.order = 3},
        {1.0, 0.8 * co, 0.8 * si}},
       {"probe.pretravel",
-       1e-3,  // the lobes alone: they are small beside the constant
+       1e-3,  // the lobes alone: they are small compared with the constant
        [](double a) {
          return Parameters{{"amplitude_mm", 0}, {"lobing_mm", a}, {"order", 3}, {"phase_rad", phi}};
        },

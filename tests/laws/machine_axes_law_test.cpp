@@ -15,7 +15,7 @@ double largest_difference(const AxisPositions& a, const AxisPositions& b) {
 
 // From the pose of drawn positions the axes come back, the first solution being the drawn one when
 // it is asked for the nearest to it; every solution has tip and direction by the matrices. Some
-// 2000 mm behind a division by a sine above 0.01: 20 · 2000 · 2⁻⁵³ / 0.01 = 4e-10.
+// 2000 mm after a division by a sine above 0.01: 20 · 2000 · 2⁻⁵³ / 0.01 = 4e-10.
 TEST(MachineAxesLaw, PutTheToolWhereItWas) {
   const ErrorModel none;
   for (const Layout& layout : layouts()) {

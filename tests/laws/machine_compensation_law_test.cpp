@@ -169,7 +169,7 @@ TEST(MachineCompensationLaw, DifferentialIsProportionalAndAQuarterIsLeft) {
       for (std::size_t k = 0; k < axis_count; ++k)
         EXPECT_NEAR(half[k], 0.5 * full[k], 3e-13) << layout.name << " seed " << seed;
       compensated += full != AxisPositions{} && half != AxisPositions{};
-      // Where the second order stands above rounding and the change is no part of a turn.
+      // If the second order is above rounding and the change is not a part of a turn.
       const double turn = std::max({std::fabs(full[3]), std::fabs(full[4]), std::fabs(full[5])});
       if (left[0] > 1e-8 && turn < 1e-3) {
         EXPECT_NEAR(left[1] / left[0], 0.25, 0.05) << layout.name << " seed " << seed;
@@ -178,7 +178,7 @@ TEST(MachineCompensationLaw, DifferentialIsProportionalAndAQuarterIsLeft) {
       }
     }
   }
-  EXPECT_GE(compensated, 5 * layouts().size());  // of ten draws each, the pole left out
+  EXPECT_GE(compensated, 5 * layouts().size());  // of ten draws each, without the pole
   EXPECT_GE(of_second_order, layouts().size());
 }
 
@@ -195,7 +195,7 @@ TEST(MachineCompensationLaw, OfSixAxesTheLeastRotaryChange) {
     if (result.status != CompensationStatus::compensated) continue;
     const ToolJacobian J = model.jacobian(q, bench.setting);
     const Vector3 d = model.nominal(q, bench.setting).direction;
-    // Of w with Σ wᵢ (ωᵢ × d) = 0: wᵢ = (ωⱼ × d) × (ωₖ × d) · d, since all lie across d.
+    // The w with Σ wᵢ (ωᵢ × d) = 0: wᵢ = (ωⱼ × d) × (ωₖ × d) · d, since all lie across d.
     const auto across = [&](std::size_t i) {
       const Vector3& w = J[i].rotation_rad;
       return Vector3{w[1] * d[2] - w[2] * d[1], w[2] * d[0] - w[0] * d[2],

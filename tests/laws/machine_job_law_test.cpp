@@ -53,11 +53,12 @@ Truth truth_of(const MachineJobResult& result, const ErrorModel& truth) {
   return out;
 }
 
-// E|δ'|² = u² at every tip, were noise all that is uncertain: of 15 parameters and 40 measurements
-// the mean of |δ'|²/u² has a relative standard deviation of about sqrt(2/(40 · 5)) = 0.1, five
-// effective directions a measurement, and the bounds are five of these. u also counts component
-// errors that this machine has not, as far as the data leave room for them, which makes it larger:
-// still no more than the lower bound allows. A tip is beyond 5 u once in a million.
+// E|δ'|² = u² at every tip if only noise is uncertain. With 15 parameters and 40 measurements the
+// mean of |δ'|²/u² has a relative standard deviation of about sqrt(2/(40 · 5)) = 0.1, with five
+// effective directions per measurement. The bounds are five of these. The uncertainty u also counts
+// component errors that this machine does not have, as far as the data leave room for them. This
+// makes it larger: still no more than the lower bound allows. A tip is beyond 5 u once in a
+// million.
 TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   constexpr std::uint64_t seed = 20261123;
   Draw draw(seed);
@@ -99,8 +100,9 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   EXPECT_LT(most, 5.0);
 }
 
-// Beside a reversal, which is not a function of a position, U counted the noise alone, without the
-// component errors that the measurement does not show: it is no smaller than without the reversal.
+// Together with a reversal, which is not a function of a position, U counted the noise alone,
+// without the component errors that the measurement does not show: it is no smaller than without
+// the reversal.
 TEST(MachineJobLaw, AReversalTakesNothingOffTheUncertainty) {
   Draw draw(20261124);
   const Machine machine = trunnion();

@@ -71,8 +71,8 @@ TEST(MachinePoseLaw, NominalIsWithoutErrors) {
   }
 }
 
-// The test of the test: what a reader of the formulas could get wrong is seen, in errors of the
-// size of a machine's (20 µm, 50 µrad), a thousand times above the tolerance at least.
+// The test of the test: it notices what a reader of the formulas could get wrong. With errors of
+// the size of a machine's (20 µm, 50 µrad) that is a thousand times above the tolerance at least.
 TEST(MachinePoseLaw, SeesPlantedMistakes) {
   const Layout &trunnion = layouts().front(), &three = layouts()[7];
   for (const Planted planted :

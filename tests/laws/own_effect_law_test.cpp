@@ -38,8 +38,8 @@ const Effect three_starts{.id = "own.three_starts",
 constexpr double lead_mm = 7.3;
 
 /// A cylinder out at 60 rpm and back at 151 rpm, with a form along its normal in formulas of the
-/// test's own: of the polar angle about the axis and of Z, which the probed length goes from 0
-/// to 60.
+/// test's own. They use the polar angle about the axis, and Z, which goes from 0 to 60 over the
+/// probed length.
 ProbeStream with_form(const std::function<double(double, double)>& form_mm) {
   virtual_lathe::Scenario scenario = one_pass(0.0, 30.0, sigma_mm);
   virtual_lathe::PlannedPass back = scenario.plan.passes[0];
@@ -64,7 +64,7 @@ Diagnosis diagnosed(const ProbeStream& stream, std::span<const Effect> own) {
   return diagnose(stream, options);
 }
 
-/// u of cos and sin of a form beside white noise: σ √(2/(N f)), f the mean square of its envelope;
+/// u of cos and sin of a form in white noise: σ √(2/(N f)), f the mean square of its envelope;
 /// five of them.
 double five_u_mm(const ProbeStream& stream, double mean_square) {
   return 5.0 * sigma_mm * std::sqrt(2.0 / (static_cast<double>(stream.size()) * mean_square));

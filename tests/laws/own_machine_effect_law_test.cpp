@@ -71,7 +71,8 @@ TEST(OwnMachineEffect, IsFoundByItsEntryAndNamedWithItsConsequence) {
   const MachineFinding& one = found.findings.front();
   EXPECT_EQ(one.effect(), "own.lift_by_tilt");
   EXPECT_EQ(one.cause.consequence, "tighten the clamp of A");
-  EXPECT_TRUE(one.errors.empty());  // of another axis it is no error that a program is corrected by
+  EXPECT_TRUE(
+      one.errors.empty());  // for another axis it is not an error that a program is corrected by
   ASSERT_EQ(one.parameters.size(), 2U);
   const double u = std::hypot(one.parameters[0].estimate.u, one.parameters[1].estimate.u);
   EXPECT_NEAR(one.size, amplitude_mm, 4.0 * u);

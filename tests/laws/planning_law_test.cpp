@@ -37,7 +37,7 @@ PlanningTask cylinder_task() {
 }
 
 // x(z) = mean + slope × (z − middle) by N readings of x cos C + y sin C: at an end the variance is
-// (2σ²/N)(1 + (L/2)²/(L²/12)) = 8σ²/N. What is left: correlation of sin C and Z over 80 turns,
+// (2σ²/N)(1 + (L/2)²/(L²/12)) = 8σ²/N. The rest is the correlation of sin C and Z over 80 turns,
 // 1/80.
 TEST(PlanningLaw, UncertaintyOfACylinderIsThatOfALine) {
   const PlanningTask task = cylinder_task();
@@ -110,7 +110,7 @@ TEST(PlanningLaw, SimulationConfirmsWhatIsRecommended) {
 }
 
 // A bound takes outliers as recognised; the plain fit does not recognise them, and the simulation
-// says so: 2 % of 0.1 mm are 14 µm RMS beside 3.
+// says so: 2 % of 0.1 mm are 14 µm RMS compared with 3.
 TEST(PlanningLaw, SimulationDoesNotConfirmWhatTheFitCannotDo) {
   PlanningTask task = cylinder_task();
   task.variables = {{Choice::readings_per_revolution, 4.0, 64.0}};
@@ -218,7 +218,7 @@ TEST(PlanningLaw, PlansWithAGaugeAndAfterClampingAgain) {
   turned.number = 2, turned.reindex_rad = 1.0, turned.x0_mm = 0.1, turned.l = 5e-4;
   again.base.plan.setups = {turned};
   // Of a cylinder the axis is all but uncorrelated with radius and zero, and each clamping's is
-  // known from its own readings: what can be said of it is as with one pass of an absolute probe.
+  // known from its own readings: what is known of it is as with one pass of an absolute probe.
   const double plain = plan_measurement(cylinder_task()).as_given.u_expanded_mm;
   for (PlanningTask* task : {&gauge, &again}) {
     task->variables = {{Choice::readings_per_revolution, 4.0, 500.0}};
@@ -231,9 +231,10 @@ TEST(PlanningLaw, PlansWithAGaugeAndAfterClampingAgain) {
   }
 }
 
-// Every k-th of many independent readings has 1/k of the information: beside the bound of all that
-// is off by the readings at the ends of the pass, some of N' = 20 000, and by those at the ends of
-// the turn of which a cut falls, 1/turns of the correlation of a turn and Z. In both 1e-3 is wide.
+// Every k-th of many independent readings has 1/k of the information: compared with the bound of
+// all, that is off for two reasons. One is the readings at the ends of the pass, some of N' = 20
+// 000. The other is those at the ends of the turn in which a cut falls, 1/turns of the correlation
+// of a turn and Z. In both 1e-3 is wide.
 TEST(PlanningLaw, LongStreamsAreAsCertainAsAllTheirReadings) {
   for (const bool cone : {false, true}) {
     PlanningTask task = cylinder_task();
@@ -267,14 +268,14 @@ TEST(PlanningLaw, CorrelatedNoiseIsNotThinned) {
   EXPECT_EQ(planning_detail::stand_in(task.base).readings_each, 1.0);
 }
 
-// At two readings a revolution sin C is 0 at every one: one direction is never looked at.
+// At two readings per revolution sin C is 0 at every one: one direction is never looked at.
 TEST(PlanningLaw, HalfTurnsDetermineNoAxis) {
   PlanningTask task = cylinder_task();
   task.base.plan.passes[0].readings_per_revolution = 2.0;
   EXPECT_FALSE(std::isfinite(planned(task.base, 2.0).u_expanded_mm));
 }
 
-// What is recommended or stands in the table can be set as printed: length, feed and noise have
+// What is recommended or in the table can be set as printed: length, feed and noise have
 // three digits, readings per revolution a tenth.
 TEST(PlanningLaw, EveryPlanCanBeSet) {
   PlanningTask task = cylinder_task();
@@ -313,7 +314,7 @@ TEST(PlanningLaw, AsksForNoBetterProbeThanTheOneThatDoes) {
     EXPECT_EQ(one.plan.of(Choice::sigma), 3e-3) << one.what;
 }
 
-// 12.3 readings a turn and one turn a second are not to be had from 10 readings a second.
+// 10 readings a second cannot give 12.3 readings per revolution at one revolution a second.
 TEST(PlanningLaw, RecommendsNothingThatTheProbeCannotFollow) {
   PlanningTask task = cylinder_task();
   task.goal_mm = 2e-3;

@@ -30,7 +30,7 @@ MachineMeasurement read_out(const Machine& machine, const ErrorModel& errors, Ax
 // An axis of the workpiece and one of the tool, either sense, under either sign: the machine with
 // the errors found puts the tip where the virtual machine does. With the wrong sign it would be
 // twice the error off, 36 µm. The polynomial of degree 3 is the error itself, so that rounding is
-// left; the zero of a read-out is not told, and is taken off.
+// left; the zero of a read-out is not known, and is subtracted.
 TEST(ReadOutSign, OfTheWorkpieceSideToo) {
   for (const ErrorSign sign : {ErrorSign::moving_part, ErrorSign::tool_minus_workpiece})
     for (const AxisName name : {AxisName::X, AxisName::Y})

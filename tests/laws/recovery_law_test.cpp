@@ -76,7 +76,7 @@ TEST(Recovery, ConesOfEveryAngleThatOpenEitherWay) {
 }
 
 TEST(Recovery, EccentricityUpToTheRadius) {
-  EXPECT_GE(catalogue_ids().size(), 4u);  // cone, cylinder, section and the plane left out
+  EXPECT_GE(catalogue_ids().size(), 4u);  // cone, cylinder and section, without the plane
   for (const std::string& id : catalogue_ids()) {
     if (id == "plane") continue;
     for (const double share : {0.9, 0.95, 0.99, 0.999, 0.9999}) {

@@ -35,7 +35,7 @@ virtual_lathe::Simulation spoiled(const LawCase& c, double share, double size_mm
   return out;
 }
 
-/// |value − truth| ≤ 4.5 u + bias for every parameter: 1 in 10⁵ by chance, over some 300 checks.
+/// |value − truth| ≤ 4.5 u + bias for every parameter: 1 in 10⁵ fails, over some 300 checks.
 void expect_near_truth(const LawCase& c, const FitResult& result, double bias_in_u = 0.0) {
   ASSERT_EQ(result.status, FitStatus::converged) << result.message;
   const std::vector<double> expected = expected_parameters(c);

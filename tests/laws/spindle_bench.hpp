@@ -18,7 +18,7 @@ namespace trueaxis::laws {
 using TrueSeries = std::vector<std::complex<double>>;
 
 /// A cylinder of radius 20 mm, off-centre, with a form and a spindle with radial motion along X and
-/// Y, every order from 2 to `top`, sizes falling with the order, phases drawn.
+/// Y. Every order from 2 to `top` is there, sizes falling with the order, phases drawn.
 struct SpindleBench {
   explicit SpindleBench(std::uint64_t seed, int top = 100) {
     std::mt19937_64 engine(seed);

@@ -60,7 +60,7 @@ TEST(TipUncertaintyLaw, IsThatOfDrawsThroughTheExactChain) {
     ErrorModel errors = draw.errors(machine, 0.03, 100e-6);
     std::vector<std::vector<double>> root;
     errors.covariance = drawn_covariance(machine, draw, root);
-    // Beside the covariance an error that is uncertain for itself.
+    // In addition to the covariance an error that is uncertain for itself.
     errors.terms.push_back({{false, 3, index_of(machine.axes[0].name)}, ConstantError{}, 0.0});
     if (without_effect(errors.terms.back().name)) errors.terms.pop_back();
     const Setting setting = first_setting(machine);

@@ -80,7 +80,7 @@ TEST(Verdict, ASlipWithoutAClockIsNamedByTheReading) {
   }
 }
 
-// Where the part stood before, and the step.
+// Where the part was before, and the step.
 TEST(Verdict, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
   for (const std::uint64_t seed : {4, 5, 6, 7}) {
     Scenario s = cylinder(seed);
@@ -93,7 +93,7 @@ TEST(Verdict, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
     for (const double z : {0.0, 40.0}) {
       const auto at = axis.axis.at(z);
       const double n = std::sqrt(1.0 - s.part.l * s.part.l - s.part.m * s.part.m);
-      // 4.5 standard uncertainties: a chance of 1e-5 in each of the 16.
+      // 4.5 standard uncertainties: a probability of 1e-5 in each of the 16.
       EXPECT_NEAR(at[0], s.part.x0_mm + 0.03 + s.part.l / n * z, 4.5 * axis.u_at(z)) << seed;
       EXPECT_NEAR(at[1], s.part.y0_mm + s.part.m / n * z, 4.5 * axis.u_at(z)) << seed;
     }

@@ -46,7 +46,7 @@ struct CutCase : ProgramCase {
   }
 
   /// What words rounded to half a unit of their last decimals do to the tip, at most: every axis by
-  /// that much at the rate at which it moves the tip; of tip programs X Y Z are the tip themselves,
+  /// that much at the rate at which it moves the tip; in tip programs X Y Z are the tip themselves,
   /// and a rotary word turns the part and the tool, of which only the errors are not made up for.
   double rounding_mm(const CompensationOptions& options) const {
     const double mm = 0.5 * std::pow(10.0, -options.decimals),
@@ -186,8 +186,8 @@ TEST(VirtualCutLaw, ChordsStayWithTheArcsOfTheControl) {
     EXPECT_GT(cut.blocks, 40u);
     EXPECT_LT(cut.off_at_ends.value, 1e-9);
     EXPECT_GT(before.off_at_ends.value, 1e-3);
-    // Chords stay within the tolerance of the arc, and the tip within what is said of the chords;
-    // with rotary axes that turn, a tenth of the chord's height is as much again.
+    // Chords stay within the tolerance of the arc, and the tip within what the result states of the
+    // chords; with rotary axes that turn, a tenth of the chord's height is as much again.
     EXPECT_LT(cut.off_between.value, 1.1 * (0.02 + result.between_after.value) + 1e-9);
   });
 }

@@ -91,8 +91,8 @@ double cylinder_held_out(const ProbeStream& stream, const FitOptions& options) {
 }
 
 /// RMS of the ideal cylinder's residuals less the least squares of a cylinder nearby and of lobes
-/// that may grow along Z: of one section after the other, from a fit to the other four, and of all
-/// from a fit to all. Columns and solution are this test's own.
+/// that may grow along Z: it is that of one section after the other, from a fit to the other four,
+/// and of all from a fit to all. Columns and solution are this test's own.
 struct Predicted {
   double held_out_mm, rms_mm;
 };
@@ -132,8 +132,8 @@ Predicted with_lobes(const ProbeStream& stream, const std::vector<double>& resid
           std::sqrt(left.squaredNorm() / static_cast<double>(rows))};
 }
 
-// A section left out is predicted about as well as by lobes of order 2, 3 and 4 that are linear in
-// Z, which is what others found in these data. Before: refits linearised about the whole fit err by
+// The prediction of an excluded section is nearly that by lobes of order 2, 3 and 4 that are
+// linear in Z. Others found these in the data. Before: refits linearised about the whole fit err by
 // the squares of what they move, a few 0.1 mm in 76 mm.
 TEST_F(Tube, PredictsASectionLeftOut) {
   ASSERT_EQ(stream_.size(), 60u);
@@ -160,7 +160,7 @@ TEST_F(Tube, AxisStaysThatOfTheIdealFit) {
   EXPECT_LE(found_.gain.axis_shift.value, 2.0 * found_.extended.axis.u_at(0.0));
 }
 
-// Beside the lobes that grow along Z an F test of two more columns does not show them, as many as
+// After the lobes that grow along Z an F test of two more columns does not show them, as many as
 // are tried.
 TEST_F(Tube, NoConstantFourOrFiveLobes) {
   ASSERT_NE(ovality(), nullptr);
@@ -247,7 +247,7 @@ class Trace : public ::testing::Test {
 };
 
 // H2 is that of the off-centre circle at R = 14.5 mm: nothing of order 2 remains. What remains is
-// fitted here, about a circle of its own, to the baseline's residuals of readings not masked.
+// fitted here, about a circle of its own, to the baseline's residuals of readings that count.
 TEST_F(Trace, HasNoOvality) {
   for (const Finding& f : found_.findings) EXPECT_NE(value(f, "order"), 2.0) << f.effect();
   for (const Unexplained& u : found_.unexplained) EXPECT_NE(u.term.pattern.order, 2.0);

@@ -103,8 +103,9 @@ TEST_F(MeasuredJob, TubeToATable) {
       found.at("correction").at("margin").at("stroke_used").at("value").get<double>();
   EXPECT_GT(stroke, 2 * 0.084);
   EXPECT_LT(stroke, 2 * 0.25);
-  // The table against the axis of the same run: once a revolution the tool swings by the offset of
-  // the axis, most at the end of the cut that is further off. Of second order, offset²/2R: 0.3 µm.
+  // The table against the axis of the same run: once per revolution the tool swings by the offset
+  // of the axis, most at the end of the cut that is further off. In second order, offset²/2R: 0.3
+  // µm.
   const auto axis = found.at("target_axis");
   const auto value = [&](const char* name) { return axis.at(name).at("value").get<double>(); };
   double offset_mm = 0.0;

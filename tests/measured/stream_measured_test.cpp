@@ -21,7 +21,7 @@ TEST(MeasuredStream, TubeHasFiveSectionsOfTwelveAngles) {
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const ProbeStream stream = read_stream_csv(path);
   ASSERT_EQ(stream.size(), 60u);
-  EXPECT_EQ(stream.reading_mm.front(), 75.905360);  // the first row as it stands in the file
+  EXPECT_EQ(stream.reading_mm.front(), 75.905360);  // the first row as it is in the file
   const auto passes = find_passes(stream);
   ASSERT_EQ(passes.size(), 5u);
   for (std::size_t k = 0; k < 5; ++k) {

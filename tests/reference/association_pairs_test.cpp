@@ -56,8 +56,8 @@ double rms_of(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// How far two elements are apart: of points in mm (along an axis or in a plane nothing is), of
-/// directions in rad, of sizes in mm, of angles in rad.
+/// How far two elements are apart: points in mm (a shift along an axis or in a plane does not
+/// count), directions in rad, sizes in mm, angles in rad.
 struct Apart {
   double point = 0.0, direction = 0.0, radius = 0.0, angle = 0.0;
 };

@@ -55,7 +55,7 @@ RealVector real(const std::vector<double>& values) {
       .cast<Real>();
 }
 
-/// Noise-free readings on a helix (a spiral on a face) of 10.3 readings a revolution.
+/// Noise-free readings on a helix (a spiral on a face) of 10.3 readings per revolution.
 ProbeStream ideal_stream(const SurfaceCase& c) {
   ProbeStream stream;
   stream.kind = c.implicit.face ? StreamKind::face : StreamKind::lateral;

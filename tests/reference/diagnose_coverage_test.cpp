@@ -40,7 +40,7 @@ TEST(DiagnoseWhiteNoise, AlarmsAtItsLevel) {
   }
   const boost::math::binomial hits(streams, options.false_alarm);
   EXPECT_LE(alarms, quantile(complement(hits, 1e-4)));
-  // Silence is no level: lobes of λ = N a²/(2σ²) above 100 are missed in one stream of 1e8.
+  // Silence is not a level: lobes of λ = N a²/(2σ²) above 100 are missed in one stream of 1e8.
   constexpr int with_lobes = 20;
   scenario.effects = {{"part.roundness", {{"order", 3}, {"amplitude_mm", sigma_mm}}}};
   int seen = 0;
@@ -76,8 +76,8 @@ std::optional<Estimate> hertz_of(const Finding& finding) {
   return std::nullopt;
 }
 
-// Three lobes and a line of 3.3 Hz, each of λ = N a²/(2σ²) near 100: found in nearly every stream
-// (power 1 − 1e-8 at a statistic of 28), and U = 2 u of amplitude, phase and frequency holds the
+// Three lobes and a line of 3.3 Hz, each of λ = N a²/(2σ²) near 100: they are found in nearly every
+// stream (power 1 − 1e-8 at a statistic of 28). U = 2 u of amplitude, phase and frequency holds the
 // truth as often as Student's t says. A form is a synchronous motion in one chucking: any of the
 // twins' names will do.
 TEST(DiagnoseEffects, UCovers) {

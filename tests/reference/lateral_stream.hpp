@@ -13,7 +13,7 @@
 
 namespace trueaxis::reference {
 
-/// How a test stream is probed: a helix of 10.3 readings a revolution (incommensurate, so that
+/// How a test stream is probed: a helix of 10.3 readings per revolution (incommensurate, so that
 /// every spindle angle comes up) over Z in [0, length].
 struct Helix {
   std::size_t readings = 2500;

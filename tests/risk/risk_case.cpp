@@ -199,7 +199,7 @@ Drawn draw_job(Group group, std::uint64_t seed, bool slips) {
     reference.fit.bore = s.part.bore;
     out.job.references.push_back(reference);
   }
-  TargetSurface target;  // beside the last seat
+  TargetSurface target;  // next to the last seat
   target.radius_mm = 0.5 * out.scenarios[0].part.radius_mm;
   target.bore = out.scenarios[0].part.bore;
   target.z_end_mm = last.end_mm + draw.between(2.0, 10.0);

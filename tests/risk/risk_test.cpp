@@ -13,7 +13,7 @@ namespace {
 
 using Binomial = boost::math::binomial_distribution<double>;
 
-/// Where the part stands is not known: a GO needs none of these streams.
+/// Where the part is is not known: a GO needs none of these streams.
 bool is_to_be_withheld(Group group) {
   return group == Group::two_slips || group == Group::creeping_slip ||
          group == Group::slip_at_an_end;
@@ -35,7 +35,7 @@ TEST_P(RiskOfAGo, IsFivePercentAtTheEdgeAndNoneFarFromIt) {
   RecordProperty("seed", std::to_string(first_seed));
   RecordProperty("out", std::to_string(out) + " of " + std::to_string(go));
   EXPECT_EQ(far_out, 0);
-  // A verdict that always refuses is none: where slips are to be refused, the same parts held fast
+  // A verdict that always refuses is useless: if slips are to be refused, the same parts held fast
   // are GO.
   constexpr int held = 12;
   if (is_to_be_withheld(GetParam())) {
@@ -48,7 +48,7 @@ TEST_P(RiskOfAGo, IsFivePercentAtTheEdgeAndNoneFarFromIt) {
     ASSERT_GE(go, jobs / 2);
   }
   if (go == 0) return;
-  // 1 in 10 000 streams of tests fails by chance.
+  // 1 in 10 000 streams of tests fails although all is right.
   const double most = boost::math::quantile(Binomial(go, nonconformity_risk), 1.0 - 1e-4);
   EXPECT_LE(out, most) << "of " << go << " GOs, seeds from " << first_seed;
 }

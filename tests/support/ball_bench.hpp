@@ -98,7 +98,7 @@ struct BallBench {
   }
 };
 
-/// Where a plan stands: rotary positions, balls and tool lengths.
+/// What a plan has: rotary positions, balls and tool lengths.
 struct BallPlan {
   std::vector<double> a_deg{-90, -60, -30, 0, 30}, c_deg{0, 45, 90, 135, 180, 225, 270, 315};
   std::vector<Vector3> balls{{120.0, 20.0, 40.0}, {-60.0, 90.0, 90.0}};

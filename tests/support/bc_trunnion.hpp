@@ -67,7 +67,7 @@ class BcTrunnion {
   }
 
   /// The largest distance of the tip from the straight line between the nominal tips at the ends of
-  /// `block`, on the way from one position of the axes to another, by 200 points.
+  /// `block`, by 200 points. The way goes from one position of the axes to another.
   double off_mm(const PlainMove& block, const AxisPositions& from, const AxisPositions& to) const {
     const Vector3 a = nominal(block.from), b = nominal(block.to);
     double largest = 0.0;

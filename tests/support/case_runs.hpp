@@ -15,7 +15,7 @@
 #include "support/command.hpp"
 
 /// What the blind studies of the lathe and of machines share: many cases of a seed, each judged by
-/// the command, its truth sealed beside it.
+/// the command, its truth sealed next to it.
 namespace trueaxis::testing {
 
 /// Seed of case i of a study: splitmix64 (Steele, Lea, Flood 2014), neighbouring numbers, unrelated
@@ -28,9 +28,9 @@ inline std::uint64_t seed_of_case(std::uint64_t study_seed, std::size_t i) {
   return (x ^ (x >> 31U)) % 1000000007ULL;
 }
 
-/// run(wanted[i]) of every case, `jobs` at a time, in the order of the cases; `progress`, where
-/// there is one, is told how many are done and the last, one at a time. Rethrows what a case
-/// throws, after those that were begun.
+/// run(wanted[i]) of every case, `jobs` at a time, in the order of the cases; `progress`, if there
+/// is one, gets how many are done and the last, one at a time. Rethrows what a case throws, after
+/// those that were begun.
 template <class Result, class Wanted, class Run, class Progress>
 std::vector<Result> run_cases(const std::vector<Wanted>& wanted, int jobs, Run run,
                               const Progress& progress) {
@@ -60,7 +60,7 @@ std::vector<Result> run_cases(const std::vector<Wanted>& wanted, int jobs, Run r
   return results;
 }
 
-/// Where the truth of a case stands: beside the folder that the command sees.
+/// The place of the truth of a case: next to the folder that the command sees.
 inline std::filesystem::path truth_path(const std::filesystem::path& folder) {
   return folder.string() + ".truth.json";
 }
@@ -70,8 +70,8 @@ inline void remove_case(const std::filesystem::path& folder) {
   std::filesystem::remove(truth_path(folder));
 }
 
-/// What `read` makes of the JSON that a command writes, with how long it took; of a command that
-/// fails, or of what cannot be read, the exit code and the text.
+/// What `read` makes of the JSON that a command writes, with how long it took; if a command fails,
+/// or its output cannot be read, the exit code and the text.
 template <class Answer, class Read>
 Answer timed_answer(const std::string& command, const std::filesystem::path& json, Read read) {
   const auto start = std::chrono::steady_clock::now();

@@ -110,12 +110,12 @@ inline double contract_value(const ErrorFunction& error, double q) {
   return sum;
 }
 
-/// A mistake that a reader of the formulas could make: a test that does not see it is no test.
+/// A mistake that a reader of the formulas could make: a test that does not see it is worthless.
 enum class Planted {
   none,
   sign_of_workpiece,    ///< E where E⁻¹ belongs
   order_of_turns,       ///< exp(EA) exp(EB) exp(EC) one after the other
-  errors_after_rotary,  ///< E behind the rotation of a rotary axis
+  errors_after_rotary,  ///< E after the rotation of a rotary axis
   pivot_of_linear,      ///< angular errors about the origin
   pivot_of_spindle,     ///< A0S about the origin
   bodies_from_tool      ///< the part's bodies multiplied from the workpiece outwards

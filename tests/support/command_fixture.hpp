@@ -40,7 +40,7 @@ class CommandTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// A job of one reference and a cylinder to be turned beside it.
+/// A job of one reference and a cylinder to be turned next to it.
 inline std::string simple_job(const std::string& reference, double speed_rpm = 600.0,
                               double tolerance_um = 20.0) {
   char cut[400];
@@ -58,7 +58,7 @@ inline const char* const earlier_table = "# schema: trueaxis.correction/1\nof an
 
 inline const char* const cylinder_reference = "stream = \"part.csv\"\nsurface = \"cylinder\"\n";
 
-/// A shaft probed in 21 turns, one each second, with an effect; the axis stands 20 µm below.
+/// A shaft probed in 21 turns, one each second, with an effect; the axis is 20 µm below.
 inline std::string shaft_with(const std::string& effect, const std::string& sigma_um, double x0_um,
                               double radius_mm, int seed) {
   char part[400];

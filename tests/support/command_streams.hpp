@@ -26,7 +26,7 @@ inline std::string shell_word(const std::filesystem::path& path) {
 }
 
 /// Runs `trueaxis ARGUMENTS` in `folder`; standard input is empty unless ARGUMENTS redirect it. The
-/// captured streams are kept beside the folder, so that the folder holds what the command wrote.
+/// captured streams are kept next to the folder, so that the folder holds what the command wrote.
 inline CommandStreams run_in(const std::filesystem::path& folder, const std::string& arguments) {
   const std::string captured = folder.string() + ".captured";
   const std::string out = captured + ".out", err = captured + ".err";

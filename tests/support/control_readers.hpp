@@ -103,7 +103,7 @@ struct PointOfControl {
   double c_deg = 0.0, x_mm = 0.0, z_mm = 0.0, f = 0.0;
 };
 
-/// `servo_nc`: blocks C X Z F; what a remark says is left out.
+/// `servo_nc`: blocks C X Z F; remarks are not read.
 inline std::vector<PointOfControl> read_blocks(const std::string& text, bool diameter) {
   std::vector<PointOfControl> blocks;
   for (std::string line : lines_in(text)) {

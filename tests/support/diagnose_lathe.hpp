@@ -41,7 +41,7 @@ inline DiagnoseOptions on_one_core(const virtual_lathe::Scenario& scenario) {
   return options;
 }
 
-/// The finding whose class holds an effect; nullptr: none.
+/// The cause whose class holds an effect; nullptr: none.
 inline const Finding* finding_with(const Diagnosis& diagnosis, const std::string& effect) {
   for (const Finding& f : diagnosis.findings)
     if (f.may_be(effect)) return &f;

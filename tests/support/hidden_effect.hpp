@@ -43,7 +43,7 @@ inline void expect_effect_taken_out(const nlohmann::json& comparison, const Hidd
   const double n = hidden.readings, noise = std::pow(hidden.sigma_mm, 2);
   const double effect = hidden.variance_mm2(), parameters = 10.0;  // fitted, at most
   const double before = mean_square("before"), after = mean_square("after");
-  // Five standard errors: of a mean of squares of noise, √(2/n) σ², and of noise times effect.
+  // Five standard errors of a mean of squares of noise, √(2/n) σ², and of noise times effect.
   const double noise_spread = 5.0 * std::sqrt(2.0 / n) * noise + parameters / n * noise;
   const double cross = 5.0 * 2.0 * std::sqrt(effect * noise / n);
   // The turns are not whole: 1/n of the effect each.

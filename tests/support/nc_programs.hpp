@@ -53,7 +53,7 @@ class ProgramMaker {
   std::size_t pick(std::size_t count) { return random_() % count; }
   bool one_in(std::size_t count) { return pick(count) == 0; }
 
-  /// A number of up to `digits` before and six behind the point, in any of its spellings.
+  /// A number of up to `digits` before and six after the point, in any of its spellings.
   std::string number(std::size_t digits) {
     std::string text = one_in(3) ? "-" : one_in(5) ? "+" : "";
     const std::size_t before = pick(digits + 1), behind = before == 0 ? 1 + pick(6) : pick(7);

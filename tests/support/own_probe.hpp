@@ -64,7 +64,7 @@ struct Stream {
   }
 };
 
-/// 36.7 readings a revolution, 1 mm of Z each, with white noise.
+/// 36.7 readings per revolution, 1 mm of Z each, with white noise.
 inline Stream helix(const Part& part, double from_mm = 10.0, double to_mm = 50.0,
                     double sigma_um = 2.0, std::uint64_t seed = 1) {
   std::mt19937_64 engine(seed);

@@ -8,7 +8,7 @@
 
 namespace trueaxis::testing {
 
-/// What is left of displacements beside the nearest one of a rigid body, by singular values of all
+/// The residual of displacements after the nearest one of a rigid body, by singular values of all
 /// rows together.
 inline std::vector<Eigen::Vector3d> without_rigid_body(const std::vector<Vector3>& points,
                                                        const std::vector<Vector3>& displacements) {

@@ -19,7 +19,7 @@ struct PlainMove {
   std::size_t line = 0;  ///< 1-based
   bool rapid = false;
   AxisPositions from{}, to{};  ///< words, mm and rad
-  bool known = true;           ///< `from` was said by the program
+  bool known = true;           ///< the program gave `from`
 };
 
 class PlainControl {

@@ -29,7 +29,7 @@ inline std::string block(const Machine& machine, const std::array<double, axis_c
   return text + "\n";
 }
 
-/// The words of every line that has an axis word, those left out as before; mm and rad.
+/// The words of every line that has an axis word, missing ones as before; mm and rad.
 inline std::vector<std::array<double, axis_count>> words_of(const std::string& text) {
   std::vector<std::array<double, axis_count>> out;
   std::istringstream lines(text);

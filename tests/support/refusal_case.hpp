@@ -44,7 +44,7 @@ inline std::string with_data_folder(std::string text) {
   return text;
 }
 
-/// @throws InputError for what is no case, keys that are not known among it.
+/// @throws InputError for what is not a case, unknown keys among it.
 inline RefusalCase read_refusal_case(const std::filesystem::path& path) {
   TomlDocument document(path.string());
   TomlTable root = document.root();

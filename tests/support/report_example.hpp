@@ -278,7 +278,7 @@ inline void add_face(JobResult& result) {
   result.fits.push_back(fit);
 }
 
-/// A shaft read by a gauge, a face beside it, and an actuator that cannot follow.
+/// A shaft read by a gauge, a face next to it, and an actuator that cannot follow.
 inline JobResult shaft_and_face_job() {
   JobResult result = cone_job(900);
   result.job.references.front().name = "bearing seat";

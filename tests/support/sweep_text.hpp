@@ -14,7 +14,7 @@ inline study::Sweep parse_sweep(const std::string& text) {
   return parse_published_sweep(text, "sweep.toml").sweep;
 }
 
-/// All that is said of a wrong sweep.
+/// All messages about a wrong sweep.
 inline std::string complaints_of_sweep(const std::string& text) {
   try {
     parse_sweep(text);

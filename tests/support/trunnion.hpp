@@ -6,7 +6,7 @@
 
 #include "support/places.hpp"
 
-/// The shipped machine of five axes with a tilting table, and its errors, as commands are told.
+/// The shipped machine of five axes with a tilting table, and its errors, as commands get them.
 namespace trueaxis::testing {
 
 inline const std::string five_axis_data = places::source() + "/data/five_axis/";

@@ -43,7 +43,7 @@ TEST(Comparison, RmsAndShareOfHarmonics) {
   const Comparison c = compare(e.measured, e.simulated, e.masked, sigma_mm);
   EXPECT_EQ(c.readings, turns * per_turn);
   EXPECT_EQ(c.masked, 0u);
-  // A harmonic has the variance A²/2; the RMS has the offset in it, the variance has not.
+  // A harmonic has the variance A²/2; the RMS has the offset in it, the variance does not.
   EXPECT_NEAR(c.before.rms_mm, std::hypot(offset_mm, lobes_mm / std::sqrt(2.0)), rounding_mm);
   EXPECT_NEAR(c.after.rms_mm, residual_mm / std::sqrt(2.0), rounding_mm);
   EXPECT_NEAR(c.before.share, 1.0, 1e-12);

@@ -34,7 +34,7 @@ double wanted_mm(double c_rad, double z_mm) {
   return (-one + std::sqrt(one * one - two * none)) / two - radius_mm;
 }
 
-/// Where the tool is along Z in row i of the cut: at its end the feed stands.
+/// Where the tool is along Z in row i of the cut: at its end the feed stops.
 double z_of_row(std::size_t i) {
   return std::max(z_end_mm, z_start_mm - feed_mm * static_cast<double>(i) / 360.0);
 }
@@ -106,7 +106,7 @@ TEST(ControlTables, TheStreamIsTheTableAndItsLastLineTwice) {
     if (!line.starts_with('#')) rows.push_back(numbers_of(line));
   ASSERT_EQ(rows.size(), of.rows.wanted_mm.size() + 1);
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
-    EXPECT_NEAR(rows[i][1], static_cast<double>(i), 1e-6);  // 360 rows a turn
+    EXPECT_NEAR(rows[i][1], static_cast<double>(i), 1e-6);  // 360 rows per revolution
     EXPECT_NEAR(rows[i][0] * mm_per_um, wanted_mm(rows[i][1] * rad_per_deg, z_of_row(i)),
                 made.rounding_mm + 1e-12);
   }
@@ -159,7 +159,7 @@ TEST(ControlTables, ProgramsSayRadiusAndDiameterAndBothFeeds) {
     }
     EXPECT_EQ(blocks, correction().rows.wanted_mm.size());
     // Inverse time holds for the blocks of the cut and for nothing else; the first block says in a
-    // comment where the nose must stand, and only feeds there.
+    // comment where the nose must be, and only feeds there.
     ASSERT_TRUE(lines[6].starts_with("G1 C")) << lines[6];
     EXPECT_NE(lines[3].find(lines[6].substr(3, lines[6].find(" F") - 3)), std::string::npos);
     EXPECT_EQ(lines[5], "G94");
@@ -185,7 +185,7 @@ TEST(ControlTables, SinumerikHasATableForEachBand) {
   for (const char* said : {"$AN_CEC_IS_MODULO[2]=1\n", "$AN_CEC_STEP[1]=2.000000\n",
                            "; table 2: Z 110.0000 to 120.0000\n"})
     EXPECT_NE(made.text.find(said), std::string::npos) << said;
-  // Off by what the axis leans over half a band, which turns once a revolution; the chord over 2°
+  // Off by what the axis leans over half a band, which turns once per revolution; the chord over 2°
   // is less than its (2°)²/8.
   const double leans_mm = 5.0 * std::hypot(slope_x, slope_y);
   const double chord_mm = 0.2 * 4.0 * rad_per_deg * rad_per_deg / 8.0;
@@ -231,7 +231,8 @@ TEST(ControlTables, BeckhoffCountsInTenthsOfAMicrometre) {
   }
 }
 
-/// What is objected to a table of this form, of a cut along 30 mm with a feed and rows a turn.
+/// The objection to a table of this form, for a cut along 30 mm with a feed and rows per
+/// revolution.
 std::string objection(ControlFormat format, double c_step_deg, double step_mm,
                       double feed = feed_mm, int rows = 360) {
   ControlTable table = table_of(format);

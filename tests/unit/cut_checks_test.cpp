@@ -62,7 +62,7 @@ bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// About its own axis the surface stands as far over the target everywhere: 20 − 19.7 mm.
+// About its own axis the surface is as far above the target everywhere: 20 − 19.7 mm.
 TEST(CutChecks, MaterialIsThatBetweenTheAxesOfPartAndTarget) {
   Job job = job_of(cylinder(19.7, 30.0, 10.0));
   job.stock_mm = 0.31;
@@ -76,7 +76,7 @@ TEST(CutChecks, MaterialIsThatBetweenTheAxesOfPartAndTarget) {
   EXPECT_TRUE(result.verdict.go()) << verdict_line(result);
 }
 
-// An axis 50 µm beside another: 50 µm more at one side and less at the other.
+// An axis 50 µm off another: 50 µm more at one side and less at the other.
 TEST(CutChecks, EccentricityCountsWhereTheTargetIsAboutAnotherAxis) {
   Job job = job_of(cylinder(19.9, 30.0, 10.0));
   job.references.push_back(job.references[0]);
@@ -99,7 +99,7 @@ TEST(CutChecks, TheStockIsAskedForOnTheProbedLengthOnly) {
   EXPECT_NO_THROW(run_job(job_of(cylinder(19.7, 60.0, 50.0)), {probed(PartKind::cylinder)}));
 }
 
-// The plane stands at 3 mm.
+// The plane is at 3 mm.
 TEST(CutChecks, OfAFaceTheMaterialLiesAlongZ) {
   for (const double z_mm : {2.8, 3.1}) {
     TargetSurface face;

@@ -116,7 +116,7 @@ TEST_P(CutContact, RunsOverTheTargetAndNotBeyond) {
 
   const double t = target.tan_half_angle;
   // Every point that is left within the target is on the target or outside of it, where the nose
-  // touched it on it: over a turn of the feed the least that stands is none.
+  // touched it on it: over a turn of the feed the least material left is 0.
   const auto stands_mm = [&](double theta, double z) {
     const double r = part.surface_mm(theta, z);
     const double x = r * std::cos(theta), y = r * std::sin(theta);
@@ -125,7 +125,7 @@ TEST_P(CutContact, RunsOverTheTargetAndNotBeyond) {
   };
   const double up = c.z_end > c.z_start ? 1.0 : -1.0;
   const double length = std::abs(c.z_end - c.z_start), feed_mm = feed_of(c);
-  /// The least that stands over one feed from there, and where.
+  /// The least material left over one feed from there, and where.
   const auto least_about = [&](double theta, double from) {
     double least = 1e9, at = from;
     const int steps = 60;
@@ -137,7 +137,7 @@ TEST_P(CutContact, RunsOverTheTargetAndNotBeyond) {
                                                  at - feed_mm / steps, at + feed_mm / steps, 40);
   };
   // Between two rows, joined by a line, A (π/360)²/2 = 4 nm of A = 0.11 mm are missing; at the rows
-  // themselves the goal is 0.1 nm. The edge of a row stands at asin(h/r) on.
+  // themselves the goal is 0.1 nm. The edge of a row is at asin(h/r) on.
   for (int i = 0; i < 12; ++i) {
     const double at_row = tool.c_start_rad + tool.sense * two_pi * 31.0 * i / 360.0;
     for (const double from : {feed_mm, 0.5 * length, length - 2.0 * feed_mm}) {
@@ -206,7 +206,7 @@ TEST(CutContactRange, OfTheNosesCentreIsTheTargetsLessTheNose) {
   EXPECT_EQ(cylinder.position_end_mm, 57.0);
 }
 
-// A face is touched at the X of the nose's centre, and stands at z_mm on the target axis.
+// A face is touched at the X of the nose's centre, and is at z_mm on the target axis.
 TEST(CutContactRange, OfAFaceIsThatOfXAndItsZHoldsOnTheTargetAxis) {
   TargetSurface face;
   face.kind = TargetKind::face;

@@ -35,7 +35,7 @@ struct Scene {
   }
 };
 
-/// Amplitudes by least squares beside the base.
+/// Amplitudes by least squares together with the base.
 Eigen::VectorXd fitted(const LinearisationPoint& point, const ObservationMask& mask,
                        const std::vector<double>& y, const Hypothesis& h) {
   NormalEquations equations(point, mask, y, {}, 1);
@@ -55,16 +55,16 @@ TEST_P(Condense, MeansAreOfTheSameSurfaceInFewTurns) {
   EXPECT_EQ(means.point.passes[0].end, means.point.passes[1].begin);
   EXPECT_EQ(means.mask.fold_begin.front(), 0u);
   EXPECT_EQ(means.mask.fold_begin.back(), means.point.size());
-  // A mean stands on the helix of its pass: Z follows C, as the part's own height does.
+  // A mean is on the helix of its pass: Z follows C, as the part's own height does.
   const Pass& out = means.point.passes[0];
   const double lead = scene.point.z[39999] / scene.point.c[39999];
   for (std::size_t i = out.begin; i < out.end; ++i)
     ASSERT_NEAR(means.point.z[i], lead * means.point.c[i], 1e-9);
 }
 
-/// What is slow keeps its size: beside the same term fitted to all readings, order 3 loses
-/// 1 − sinc(3/40) = 0.9 %, and what the two fits see of the noise differs by the rest of the
-/// sector, √(1 − sinc²) = 0.13 of u = σ √(2/N).
+/// What is slow keeps its size: compared with the same term fitted to all readings, order 3 loses 1
+/// − sinc(3/40) = 0.9 %. What the two fits see of the noise differs by the rest of the sector, √(1
+/// − sinc²) = 0.13 of u = σ √(2/N).
 TEST_P(Condense, WhatIsSlowKeepsItsSize) {
   std::cout << "seed " << seed << '\n';
   Scene scene(GetParam());

@@ -112,7 +112,7 @@ TEST(ScoreOfColumns, IsTheDecreaseOfTheSumOfSquares) {
 }
 
 // Eq. 60: an effect regressed on the base fit's residuals shrinks by exactly ρ²; fitted jointly
-// it does not. A bent part, s² from one end on beside the line in s, keeps 1/36 = 2.8 %: on [0, 1]
+// it does not. A bent part, s² from one end on after the line in s, keeps 1/36 = 2.8 %: on [0, 1]
 // the variance of s² about its line is 1/180, its mean square 1/5. A helix of 60 turns is that
 // integral to one part in its turns.
 TEST(ScoreOfColumns, NaiveRegressionShrinksByRhoSquared) {

@@ -85,7 +85,7 @@ class SceneOf : public ::testing::TestWithParam<std::tuple<double, Root, Root>> 
 };
 
 // Central differences of the exact intersection with a step h err by h²/6 of the third derivative
-// and by rounding, 1e-16 × 40 mm/h: below 1e-7 of the lever for the steps chosen. What is left out
+// and by rounding, 1e-16 × 40 mm/h: below 1e-7 of the lever for the steps chosen. What is missing
 // is the square of the tilt, 2e-5: slopes are tangents, s runs along the axis.
 TEST_P(SceneOf, BaseColumnsAreDifferencesOfTheIntersection) {
   const Bench b = bench();

@@ -33,7 +33,7 @@ struct Bench {
   }
 };
 
-// A basis whose products are made once, and terms beside it: the same numbers in the same order as
+// A basis whose products are made once, and further terms: the same numbers in the same order as
 // of all at once, on one thread and on three.
 TEST(NoiseEstimator, IsThatOfAllColumnsToTheLastBit) {
   const Bench b;
@@ -56,7 +56,7 @@ TEST(NoiseEstimator, IsThatOfAllColumnsToTheLastBit) {
 }
 
 // √((1 − ρ²)/N) is the standard error of one stream (Box and Jenkins); the mean of M has 1/√M of
-// it, to which the bias of an AR(1) beside p columns adds at most (1 + 3ρ)/N.
+// it, to which the bias of an AR(1) after p columns adds at most (1 + 3ρ)/N.
 class Correlation : public ::testing::TestWithParam<double> {};
 
 TEST_P(Correlation, IsFoundBesideAStrongHarmonic) {
@@ -83,7 +83,7 @@ TEST_P(Correlation, IsFoundBesideAStrongHarmonic) {
 
 INSTANTIATE_TEST_SUITE_P(Rho, Correlation, ::testing::Values(0.5, 0.8));
 
-// First order at 5 %, or second order: at 5 % beside the first, and beyond 2 × 3.84 against white.
+// First order at 5 %, or second order: at 5 % after the first, and beyond 2 × 3.84 against white.
 // The two likelihood ratios are independent χ² of one degree of freedom.
 TEST(Autoregression, FindsNothingInWhiteNoise) {
   constexpr int streams = 250;
@@ -116,7 +116,7 @@ std::set<std::size_t> masked_rows(const Bench& b, const std::vector<double>& y) 
   return out;
 }
 
-// Far out is 8 σ of the MAD: chips of 20 σ are masked beside noise of one and lobes of 50 σ; of
+// Far out is 8 σ of the MAD: chips of 20 σ are excluded among noise of one and lobes of 50 σ; of
 // 1500 white readings none comes near 8 σ.
 TEST(MaskOutliers, MasksChipsAndNothingElse) {
   const Bench b;

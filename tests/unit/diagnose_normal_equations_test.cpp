@@ -39,7 +39,7 @@ MatrixXd whitening_of_first(const std::vector<double>& phi) {
   return factor.inverse();
 }
 
-/// Out in front and back at the rear, with masked readings and a gap in the sampling.
+/// Out in front and back at the rear, with excluded readings and a gap in the sampling.
 struct Bench {
   ProbeStream stream;
   LinearisationPoint point;
@@ -95,7 +95,7 @@ struct Bench {
 };
 
 // Both sums have rounding of N units in the last place of the columns' sizes. The readings' own
-// square has a floor beside it, of at most 5e-4 of their root mean square.
+// square has a floor in addition, of at most 5e-4 of their root mean square.
 void expect_same_gram(const MatrixXd& gram, const MatrixXd& dense, const char* what) {
   const MatrixXd expected = dense.transpose() * dense;
   ASSERT_EQ(gram.rows(), expected.rows()) << what;
@@ -175,12 +175,12 @@ TEST_P(NormalEquationsOf, AppendsAndShrinks) {
   for (const MatrixXd& fold : equations.folds()) EXPECT_EQ(fold.rows(), bare.rows());
 }
 
-// Those behind the first `together` are judged one by one: they have the products with those and
+// Those after the first `together` are judged one by one: they have the products with those and
 // with what was there, and their own; cells of one order in a row count as one. No other is made.
 TEST_P(NormalEquationsOf, LeavesOutWhatIsNotAsked) {
   const Bench b(700);
   const std::vector<Hypothesis> some = some_hypotheses();
-  Hypothesis constant;  // and behind it the cell of order 5 and degree 2
+  Hypothesis constant;  // and after it the cell of order 5 and degree 2
   constant.pattern = {.order = 5.0};
   const std::vector<Hypothesis> list{some[0], some[1], constant, some[2], some[3]};
   constexpr std::size_t together = 1;

@@ -26,7 +26,7 @@ LinearisationPoint passes_one_way(std::size_t readings, int passes) {
                       false);
 }
 
-// However little Z moves from one reading to the next, a helix is no section: its blocks are of
+// However little Z moves from one reading to the next, a helix is not a section: its blocks are of
 // whole revolutions, and none is a whole pass.
 TEST(ObservationMask, ADenseHelixIsNoSection) {
   for (const std::size_t readings : {500, 3000, 20000}) {

@@ -30,7 +30,7 @@ MatrixXd whitened(const MatrixXd& raw, const ObservationMask& mask, double phi) 
   return out;
 }
 
-/// What a hypothesis takes off beside base and terms.
+/// What a hypothesis explains after base and terms.
 double exact_gain(const LinearisationPoint& point, const ObservationMask& mask, double phi,
                   std::vector<Hypothesis> terms, const Hypothesis& step,
                   const std::vector<double>& y) {
@@ -46,7 +46,7 @@ double exact_gain(const LinearisationPoint& point, const ObservationMask& mask, 
 
 class ScannedStep : public ::testing::TestWithParam<double> {};
 
-// Two passes of 60 readings, a slip of 30 σ beside lobes: the date is that of the step exactly, as
+// Two passes of 60 readings, a slip of 30 σ among lobes: the date is that of the step exactly, as
 // no other leaves less than the readings between (30 σ each, twice). And none takes off more than
 // 12 σ² beyond it: among those the plausible size decides.
 TEST_P(ScannedStep, IsDatedToTheReading) {

@@ -26,7 +26,7 @@ struct LineCase {
 
 void PrintTo(const LineCase& c, std::ostream* out) { *out << (c.id ? c.id : "pattern"); }
 
-/// A cone. Of two passes, at 60 and 151 rpm, C, Z and t are three variables.
+/// A cone. In two passes, at 60 and 151 rpm, C, Z and t are three variables.
 struct Bench {
   LinearisationPoint point;
   ObservationMask mask;
@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                                    &PointPart::s}),
         ::testing::Values(0.0, 0.5)));
 
-// Σ W over the scans that count, W = Δf √(4π var x): of one pass C, Z and t are one variable and
+// Σ W over the scans that count, W = Δf √(4π var x): in one pass C, Z and t are one variable and
 // the scans along them the same lines, counted once.
 TEST(ScanLines, CountTheSameLinesOnce) {
   const Bench two(out_and_back), one({.readings = 1800});

@@ -103,8 +103,7 @@ TEST(DiagnosisJson, TermAndFrameRebuildTheModel) {
             example::wander_mm);
 }
 
-/// Every cause that a finding may have, the named one and its rivals, of the catalogue or one's
-/// own.
+/// Every cause of a class, the named one and its rival causes, of the catalogue or one's own.
 TEST(DiagnosisJson, EveryCauseHasItsConsequence) {
   const Effect own{.id = "own.form", .title = "a form of its own", .consequence = "turn it again"};
   Diagnosis d = example::cone_diagnosis();
@@ -137,7 +136,7 @@ TEST(DiagnosisJson, EveryTermOfTheCatalogueCanBeWritten) {
   EXPECT_GE(terms, 40u);
 }
 
-/// Numbers that no default has, by the reader that stands beside the writer.
+/// Numbers that no default has, by the reader next to the writer.
 TEST(DiagnosisJson, EveryTermComesBack) {
   const TermShape shape{7.5, -31.0, 43.0, 4, 0.77, 12.5, 321.0, 9.25, 38.5, 1.75};
   for (const Effect& effect : effect_catalogue()) {

@@ -30,7 +30,7 @@ class ErrorsCovariance : public ::testing::Test {
   ErrorModel read(const std::vector<std::string>& paths) const {
     return read_errors(paths, machine_);
   }
-  /// All that is said of a file with this behind its head.
+  /// All messages about a file with this after its head.
   std::string refused(const std::string& text) const {
     const std::string path = written("wrong.toml", head_ + text);
     try {
@@ -65,7 +65,7 @@ TEST_F(ErrorsCovariance, UpToTheDiagonalOrWhole) {
     EXPECT_DOUBLE_EQ(errors.covariance.data()[1], -3e-9);
     EXPECT_DOUBLE_EQ(errors.covariance.data()[2], -3e-9);
     EXPECT_DOUBLE_EQ(errors.covariance.data()[3], 9e-12);
-    EXPECT_EQ(errors.terms[0].u, 0.0);  // it stands in the matrix
+    EXPECT_EQ(errors.terms[0].u, 0.0);  // it is in the matrix
   }
 }
 
@@ -87,7 +87,7 @@ TEST_F(ErrorsCovariance, IsWrittenAndReadBack) {
                 1e-8 * std::abs(once.covariance.data()[i]));
 }
 
-// Of several files: block diagonal; of an amount that both have, and of a u beside it, squares add.
+// Several files are block diagonal; squares add for an amount that both have, and for a separate u.
 TEST_F(ErrorsCovariance, FilesAreIndependent) {
   const std::string a = written("a.toml", head_ + table_ + "matrix = [4, -3, 9]\n");
   const std::string b =
@@ -150,7 +150,7 @@ TEST_F(ErrorsCovariance, SaysOfWhichMachine) {
   const ErrorModel errors = read({written("e.toml", head_)});
   const std::string text = errors_toml(errors, &machine_.machine);
   read({written("same.toml", text)});
-  // Work offsets, tools and limits are no part of it, and any point of a line is the line.
+  // Work offsets, tools and limits do not count, and any point of a line is the line.
   MachineFile other = machine_;
   other.machine.tool.length_mm += 10.0;
   other.machine.work_offsets[0]->bed_from_program.origin_mm[0] += 5.0;

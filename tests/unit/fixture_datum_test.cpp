@@ -44,7 +44,7 @@ TEST(FixtureDatum, DatumSurfacesLieOnTheFixture) {
   }
 }
 
-// Perfect locators whose side tips stand on the edges of the fixture's planes carry the datum
+// Perfect locators whose side tips are on the edges of the fixture's planes carry the datum
 // system itself: D and E on the x axis, F at the origin.
 TEST(FixtureDatum, SixContactsOnTheFixturesPlanesSayTheSame) {
   constexpr unsigned seed = 1212;

@@ -134,9 +134,9 @@ TEST(FixtureLocate, BothAgreeWhereThePaperIsRight) {
 }
 
 // (4.3) takes the ideal lengths off along Z of frame 0, where the part has them along its own z. A
-// part tilted by α about X on locators at y = 0 and y = b, the latter h higher, so has the printed
-// tan α' = (b sin α + h cos α − h)/(b cos α − h sin α): the paper is off by h sin α/b to first
-// order.
+// part is tilted by α about X on locators at y = 0 and y = b, the latter h higher. The printed
+// angle is then tan α' = (b sin α + h cos α − h)/(b cos α − h sin α): the paper is off by h sin α/b
+// to first order.
 TEST(FixtureLocate, UnequalLengthsTurnThePrintedFrame) {
   const double alpha = 0.02, b = 50.0, h = 20.0;
   Locators locators = readings_of({alpha / rad_per_deg, 0, 0}, {0, 0, 0});

@@ -50,7 +50,7 @@ TEST(FollowingOnce, IsWhatTurnsWithThePartAndNotTheRippleOfTheHold) {
     ToolSetup tool;
     tool.speed_rpm = 600.0;
     Actuator actuator;
-    actuator.sampling_hz = 1970.0;  // 197 set-points a revolution: a ripple of 300 µm · π/197
+    actuator.sampling_hz = 1970.0;  // 197 set-points per revolution: a ripple of 300 µm · π/197
     actuator.precompensate = precompensate;
     actuator.delay_s = 2e-4;
     const Correction correction = make_correction(far_axis(), cylinder(), tool, actuator);
@@ -79,7 +79,8 @@ TEST(FollowingOnce, OfRowsIsWhatInterpolationTakes) {
               0.25 * (1.0 - kept), 2e-6);
 }
 
-// With 12 rows a turn no speed below 5000 rpm works: it is the rows that are named, and they do.
+// With 12 rows per revolution no speed below 5000 rpm works: it is the rows that are named, and
+// they do.
 TEST(Remedy, OfTooFewRowsIsRows) {
   ToolSetup tool;
   tool.rows_per_revolution = 12;

@@ -75,7 +75,7 @@ TEST(FormCircle, LobesExactly) {
     EXPECT_NEAR(value_of(values, "RONq", "LSCI").estimate.value, a / std::sqrt(2.0), rounding_mm);
     EXPECT_EQ(result.sections[0].lobes, n);
     EXPECT_NEAR(result.sections[0].lobes_share, 1.0, 1e-9);
-    // dr/dθ = n a at most, half a step beside it n a (nh/2)²/2 less; the rule itself (nh)⁴/30.
+    // dr/dθ = n a at most, half a step away n a (nh/2)²/2 less; the rule itself (nh)⁴/30.
     const double step = two_pi / 720.0;
     EXPECT_NEAR(value_of(values, "slope").estimate.value, n * a,
                 0.13 * a * std::pow(n, 3) * step * step);
@@ -85,7 +85,7 @@ TEST(FormCircle, LobesExactly) {
   }
 }
 
-// One reading of N stands out by h. LSCI: h(1 − 3/N) up and (1 + 2 cos(2π/N)) h/N down beside it;
+// One reading of N sticks out by h. LSCI: h(1 − 3/N) up and (1 + 2 cos(2π/N)) h/N down next to it;
 // MZCI, MCCI, MICI: h, as its neighbours are as near to it as one likes (a gauge: Eq. 265).
 TEST(FormCircle, OneReadingStandsOut) {
   const double h = 1e-2, n = 360.0;

@@ -123,7 +123,7 @@ TEST(FormFilter, EndsAndGapsKeepALine) {
   }
 }
 
-// What stands beyond a gap of seven waves does not reach across it.
+// What lies beyond a gap of seven waves does not reach across it.
 TEST(FormFilter, NothingReachesAcrossAGap) {
   Trace trace;
   for (int i = 0; i < 400; ++i)

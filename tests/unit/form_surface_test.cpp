@@ -14,7 +14,7 @@ namespace {
 
 constexpr double per_turn = 36.7, turns = 40.0, length_mm = 40.0;
 
-/// A helix of 36.7 readings a turn on a part with noise.
+/// A helix of 36.7 readings per revolution on a part with noise.
 ProbeStream helix(const PartShape& shape, double sigma_mm, unsigned seed) {
   boost::random::mt19937 engine(seed);
   boost::random::normal_distribution<double> normal;
@@ -96,7 +96,7 @@ TEST(FormSurface, NothingResolvedIsABound) {
   EXPECT_LE(least_of(value, 2.0), 0.0);
 }
 
-// Lobes that were taken off by a known amplitude ± 1 µm: RONt is off by twice that in phase.
+// Lobes that were subtracted with a known amplitude ± 1 µm: RONt is off by twice that in phase.
 void expect_u_of_taken_off(const ProbeStream& stream, FormOptions options) {
   const double u_amplitude = 1e-3;
   std::vector<std::vector<double>> columns(1);

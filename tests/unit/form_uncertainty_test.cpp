@@ -27,8 +27,8 @@ FormOptions with_u() {
   return options;
 }
 
-// Of 100 profiles U (k = 2, 95 %) must hold the truth of a lobed part in 86 at least: binomial of
-// 0.95, four σ below. Of a round part, which noise alone makes out of round, as many.
+// U (k = 2, 95 %) must hold the truth of a lobed part in at least 86 of 100 profiles: binomial of
+// 0.95, four σ below. The same holds for a round part, which noise alone makes out of round.
 TEST(FormUncertainty, HoldsTheTruth) {
   const double passed = std::exp2(-(3.0 / 15.0) * (3.0 / 15.0));
   for (const double lobes_mm : {0.0, 0.3e-3, 3e-3}) {
@@ -79,7 +79,7 @@ TEST(FormUncertainty, SameOnAnyNumberOfThreads) {
   }
 }
 
-// A known motion is taken off; one known by its range alone widens U to that size.
+// A known motion is subtracted; one known by its range alone widens U to that size.
 TEST(FormUncertainty, TheSpindlesMotion) {
   const double motion = 1e-3;
   const ProbeStream stream = section_stream(

@@ -31,7 +31,7 @@ TEST(FormWhole, AConstantLobedCylinder) {
     EXPECT_NEAR(of(result, "cylindricity", none), 0.0, rounding_mm) << none;
 }
 
-// A taper of s: radii ± 20 s; the cylinder of the minimum zone stands in their middle.
+// A taper of s: radii ± 20 s; the cylinder of the minimum zone is in their middle.
 TEST(FormWhole, ATaper) {
   const double s = 1e-4;
   const FormResult result = assess_form(
@@ -69,7 +69,7 @@ TEST(FormWhole, ABentAxis) {
 }
 
 // An axis that leaves the spindle axis by 5 µm + z/1000. Sections are cut at right angles to the
-// spindle: the part's own are ellipses of l²R/2 = 8 nm less, which the part here has not.
+// spindle: the part's own are ellipses of l²R/2 = 8 nm less, which the part here does not have.
 TEST(FormWhole, AnAxisBesideTheSpindle) {
   const double l = 1e-3, e = 5e-3;
   const FormResult result = assess_form(
@@ -84,7 +84,7 @@ TEST(FormWhole, AnAxisBesideTheSpindle) {
   EXPECT_NEAR(of(result, "cylindricity", "CYLt", "MZCY"), 0.5 * l * l * 15.0, 1e-9);
 }
 
-// Against a datum that stands as it does, the part is coaxial.
+// Against a datum that is placed alike, the part is coaxial.
 TEST(FormWhole, AgainstADatum) {
   const PartShape shape = [](double t, double z) { return eccentric(15.0, 0.02 + 5e-4 * z, t); };
   const ProbeStream part = part_stream(shape, 360, five_z);
@@ -111,7 +111,7 @@ TEST(FormWhole, AHelixIsCutIntoTurns) {
   ASSERT_EQ(result.sections.size(), 6U);
   for (const SectionForm& section : result.sections) {
     EXPECT_EQ(section.readings, 360U);
-    // Eq. 268 is exact for this part; what is left is the limaçon, (l z)²/4R.
+    // Eq. 268 is exact for this part; the residual is the limaçon, (l z)²/4R.
     EXPECT_LT(value_of(section.values, "RONt", "MZCI").estimate.value, 1e-8);
   }
   EXPECT_NE(result.notes.front().find("helix"), std::string::npos);

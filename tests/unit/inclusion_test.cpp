@@ -54,7 +54,7 @@ TEST(Inclusion, AClassThatHoldsTheFormIsRefusedByName) {
   EXPECT_NE(why_of(result).find("probe.nonlinearity"), std::string::npos);
 }
 
-// Beside a whole order chance keeps a line of a free order in the class: seen are 0.1 to 2 %.
+// Near a whole order noise keeps a line of a free order in the class: 0.1 to 2 % were seen.
 TEST(Inclusion, WhatIsPossibleByChanceAloneForbidsNothing) {
   Finding finding = spindle_lobes();
   finding.probability = 0.982;

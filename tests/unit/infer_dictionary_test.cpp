@@ -50,7 +50,7 @@ Dictionary::Set found(const Dictionary& dictionary) {
   return set;
 }
 
-// A false alarm in one of a hundred measurements: three of forty are one chance in 100.
+// A false alarm in one of a hundred measurements: three of forty have a probability of 1 %.
 TEST(InferDictionary, FindsWhatIsThereAndNothingElse) {
   int more = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

@@ -82,7 +82,7 @@ TEST_F(MachineToml, EveryKeyIsRead) {
   EXPECT_EQ(machine.max_rotary_change_rad, 2 * rad_per_deg);
 }
 
-/// Numbers that stand in `b` where `a` has other ones: how far off at most, in parts of 1.
+/// Numbers of `b` where `a` has other ones: how far off at most, in parts of 1.
 double difference(const std::string& a, const std::string& b) {
   double largest = 0.0;
   std::istringstream of_a(a), of_b(b);

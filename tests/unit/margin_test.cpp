@@ -207,7 +207,7 @@ TEST(Margin, TheHighestSpeedFollowsAndATenthMoreDoesNot) {
   }
 }
 
-// A job that runs is told no speed beyond a third of the bandwidth: Eq. 117, f_n of ζ = 0.7 times
+// For a job that runs no speed is beyond a third of the bandwidth: Eq. 117, f_n of ζ = 0.7 times
 // 1.01005, at the second harmonic (above 10 nm, as before); its own speed where that is higher.
 TEST(Margin, NoSpeedIsNamedBeyondAThirdOfTheBandwidth) {
   ToolSetup tool;

@@ -66,7 +66,7 @@ TEST(NcLossless, RandomProgramsStay) {
   }
 }
 
-/// Texts of the words that are no axis words, in their order.
+/// Texts of the words that are not axis words, in their order.
 std::vector<std::string> other_words(const Program& program) {
   std::vector<std::string> out;
   for (const Word& word : program.words)

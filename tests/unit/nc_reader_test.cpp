@@ -32,7 +32,7 @@ std::string places(const std::string& text, const ReadOptions& options = xyzac()
 }
 
 struct RefusedCase {
-  std::string text, where;  ///< behind `all`, so the lines count from 2
+  std::string text, where;  ///< after `all`, so the lines count from 2
 };
 void PrintTo(const RefusedCase& one, std::ostream* out) {
   *out << trueaxis::testing::pasted(one.text);
@@ -134,7 +134,7 @@ TEST(NcReader, AnotherWorkOffsetLeavesTheMachineWhereItIs) {
   EXPECT_EQ(third[5], 1.0 * rad_per_deg);
 }
 
-// Distances to a point on the way home are no positions; what follows is read under G90.
+// Distances to a point on the way home are not positions; what follows is read under G90.
 TEST(NcReader, GoesHomeUnderG91) {
   for (const char* const home :
        {"G91 G28 Z0\nG90\n", "G28 G91 Z0.\nG28 X0 Y0\nG90\n", "G91\nG30 Z5\nG90 "}) {

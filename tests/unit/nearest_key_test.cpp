@@ -26,7 +26,7 @@ TEST(NearestKey, IsWhatWasMeant) {
       {"noise.sigma", sweep, "noise.sigma_mm"},
       {"coaxiality_tolerance", target, "coaxiality_tolerance_mm"},
       {"feed", cut, "feed_mm_per_rev"},
-      // Without what stands before it, in its unit.
+      // Without what precedes it, in its unit.
       {"sigma_um", sweep, "noise.sigma_um"},
       {"length_mm", sweep, "pass.length_mm"},
       {"tolerance_um", target, "coaxiality_tolerance_um"},

@@ -17,7 +17,7 @@ TEST(NormalMixture, OfNormalsIsTheNormalOfTheirVariances) {
   EXPECT_NEAR(central_quantile(12.0, sure, 0.9545), 2.0 * 13.0, 0.03 * 1.3);
 }
 
-// Of one mixture beside a normal P(|e| ≤ q) is a sum of error functions.
+// For one mixture plus a normal P(|e| ≤ q) is a sum of error functions.
 TEST(NormalMixture, OfOneThatIsSeldomThereIsTheQuantileOfTheSum) {
   for (const double sd : {1.0, 10.0, 100.0}) {
     const std::vector<NormalMixture> one{{{0.15, 0.0, sd}, {0.02, 0.0, 5.0 * sd}}};

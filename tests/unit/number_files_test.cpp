@@ -84,7 +84,7 @@ TEST(NumberFiles, AnX3pSurfaceHasSteppedAxesARotationAnOffsetAndInvalidPoints) {
   const PointText got = read_points(made("surface.x3p"), "");
   ASSERT_EQ(got.points_mm.size(), 18U);  // bits 2 and 19 of 20 are 0
   EXPECT_EQ(got.lines.front(), 1U);
-  EXPECT_EQ(got.lines[2], 4U);  // the third is left out
+  EXPECT_EQ(got.lines[2], 4U);  // the third is not used
   ASSERT_EQ(got.notes.size(), 1U);
   EXPECT_NE(got.notes[0].find("2 of 20 points are marked invalid"), std::string::npos);
   for (std::size_t i = 0; i < got.points_mm.size(); ++i) {

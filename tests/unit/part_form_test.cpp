@@ -16,8 +16,8 @@ namespace {
 
 constexpr double sigma_mm = 2e-4;
 
-/// Sections at six Z with 211 readings a turn: 1-15 UPR takes 105. The part runs true, so that the
-/// readings do not tell its angle from the spindle's.
+/// Sections at six Z with 211 readings per revolution: 1-15 UPR takes 105. The part runs true, so
+/// that the readings do not tell its angle from the spindle's.
 virtual_lathe::Scenario sections_of_a_shaft(std::uint64_t seed) {
   virtual_lathe::Scenario scenario = one_pass(0.0, 6.0, sigma_mm);
   scenario.seed = seed;
@@ -177,7 +177,8 @@ TEST(PartForm, WhatTheReadingsDoNotCarryIsNotJudged) {
   virtual_lathe::Scenario scenario = one_pass(0.0, 20.0, sigma_mm);
   scenario.seed = 16;
   FormTask task;
-  task.roundness_tolerance_mm = 0.1;  // 1-50 by default: 350 readings a turn, of which 24 are there
+  task.roundness_tolerance_mm =
+      0.1;  // 1-50 by default: 350 readings per revolution, of which 24 are there
   const Case one = assessed(scenario, task);
   ASSERT_EQ(one.form.judgements.size(), 1u);
   EXPECT_EQ(one.form.judgements.front().conformity, Conformity::not_judged);

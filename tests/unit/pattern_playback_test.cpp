@@ -96,8 +96,8 @@ TEST(PatternPlayback, LineAlongZ) {
   for (const double per_mm : {0.14, -0.09, 0.0}) {
     const Unexplained line =
         pattern({.kind = Pattern::Kind::line, .order = 7.41, .frequency = per_mm});
-    // The angle of a part that turned n times is that of its last turn: an order that is no whole
-    // number starts anew at ±180°.
+    // The angle of a part that turned n times is that of its last turn: an order that is not a
+    // whole number starts anew at ±180°.
     expect_played(line, [=](const At& at) {
       return wave(7.41 * std::remainder(at.c, two_pi) - two_pi * per_mm * at.z);
     });

@@ -80,7 +80,7 @@ TEST(LikelihoodProfile, MaximumAndIntervalOfAStandardDeviation) {
 }
 
 TEST(LikelihoodProfile, AnEndThatIsNeverReachedIsOpen) {
-  // Readings of no spread beside rounding: any small σ will do.
+  // Readings without a spread, compared with rounding: any small σ will do.
   const LikelihoodProfile profile([](double sigma) { return -0.5 * std::log(1.0 + sigma * sigma); },
                                   1e-3, 1e3);
   EXPECT_TRUE(std::isnan(profile.interval_95().low));

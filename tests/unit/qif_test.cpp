@@ -17,7 +17,7 @@
 namespace trueaxis::testing {
 namespace {
 
-// Half of the 18th digit behind the point, and as much for the double that is read.
+// Half of the 18th digit after the point, and as much for the double that is read.
 constexpr double last_digit = 1e-18;
 
 double number(pugi::xml_node node) { return std::strtod(node.text().get(), nullptr); }
@@ -94,7 +94,7 @@ TEST(Qif, EveryToleranceIsACharacteristicJudgedByIso14253) {
   const Estimate& runout = value(datum, "runout_total").estimate;
   const std::vector<FormTolerance> tolerances{
       {"RONt", 0.01}, {"coaxiality", 0.001}, {"runout_total", runout.value},  // within U
-      {"STRsa", 1.0}, {"parallelism", 1.0},  {"RONq", 1.0}};                  // which QIF has not
+      {"STRsa", 1.0}, {"parallelism", 1.0},  {"RONq", 1.0}};  // which QIF does not have
   const QifReader qif(form_qif(result, tolerances, true));
   qif.expect_structure();
   const auto measured = qif.characteristics();
@@ -179,7 +179,8 @@ PointText points_near(Element element) {
   return out;
 }
 
-/// What QIF 3.0 has of each element beside its place: the child that says its direction, its sizes.
+/// What QIF 3.0 has of each element in addition to its place: the child that says its direction,
+/// its sizes.
 struct Written {
   Element element;
   std::string direction;

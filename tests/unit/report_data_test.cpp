@@ -60,7 +60,7 @@ TEST(ReportPageText, LoadsNothingFromElsewhere) {
   EXPECT_EQ(count(page, "<link"), count(page, "<link rel=\"icon\" href=\"data:,\">"));
 }
 
-/// Three lobes of 6 µm and a wander of 1.2 µm over 2 µm of noise: the extended model leaves the
+/// Three lobes of 6 µm and a wander of 1.2 µm over 2 µm of noise: surface and causes leave the
 /// noise, 4/(18 + 0.72 + 4) of the variance; the sample's own share is within 5/√1500 of that.
 TEST(ReportData, ShareOfTheVarianceThatIsLeft) {
   const json data = report_data(example::diagnosed_job(1500));
@@ -144,7 +144,7 @@ TEST(ReportData, DeviationOfAConeIsItsEccentricity) {
   const json data = report_data(result)["references"][0]["readings"];
   ASSERT_EQ(data["points"]["deviation_um"].size(), 1500u);
   for (std::size_t i = 0; i < 1500; ++i) {
-    // Offset along the probe + taper × lean + noise; left out: across² / 2R = 0.13 µm at most,
+    // Offset along the probe + taper × lean + noise; not counted: across² / 2R = 0.13 µm at most,
     // taper × lean × offset = 0.01 µm.
     const double c = result.streams[0].c_rad[i], z = result.streams[0].position_mm[i];
     const Revolved cone = example::true_cone();

@@ -46,7 +46,7 @@ TEST(Reproduction, OneThatIsWorseThanTheIdealSurfaceIsNoGo) {
   EXPECT_NE(line.find(result.diagnoses.front()->next.what), std::string::npos) << line;
 }
 
-/// The number that would be held against a tolerance is that of a wrong model.
+/// The number that would be compared with a tolerance is that of a wrong model.
 TEST(Reproduction, WhatIsRefutedIsNotHeldAgainstATolerance) {
   JobResult result = resimulated(true);
   for (const double tolerance_mm : {1e-6, 1.0}) {
@@ -87,7 +87,7 @@ TEST(Reproduction, HalfWayBackAndBeyondChance) {
 }
 
 /// Whole turns of the lobes between two simulations, of a size at which ½ is 2 u: noise alone,
-/// white or correlated, then refutes right findings with the stated 1 %.
+/// white or correlated, then refutes right causes with the stated 1 %.
 TEST(Reproduction, ChanceRefutesWhatIsRightInOneOfAHundred) {
   constexpr std::size_t turns = 5, per_turn = 40, draws = 4000;
   constexpr double sigma_mm = 0.002;

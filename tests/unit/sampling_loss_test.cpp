@@ -10,8 +10,8 @@
 namespace trueaxis {
 namespace {
 
-// A chord of cos over the step h lies off it by 1 − cos(h/2) where h is centred on a crest, and by
-// cos(h/2) of that where a crest is a point of the table.
+// A chord of cos over the step h lies off it by 1 − cos(h/2) if h is centred on a crest. If a crest
+// is a point of the table, it is cos(h/2) of that.
 TEST(SamplingLoss, IsTheSagOfTheChord) {
   Machine machine;
   std::vector<ChainTrouble> none;

@@ -86,7 +86,7 @@ TEST(ScenarioWords, BothNamesOfOneThingAreOneTooMany) {
   EXPECT_NE(sense.find("`sense` is \"2\" but must be one of: +c, -c"), std::string::npos) << sense;
 }
 
-// What is wrong with an earlier word used alone is said with the word of today.
+// A message about an earlier word used alone has the word of today.
 TEST(ScenarioWords, AnEarlierWordIsToldTheNameOfToday) {
   const std::string target =
       "surface = \"cylinder\"\nradius_mm = 21\nz_start_mm = 9\nz_end_mm = 1\n";

@@ -193,7 +193,7 @@ TEST(Seats, TwoDiametersAreFoundWithTheirEnds) {
   }
   std::printf("not found as two, with step and ends: %d of %d, below %.1f %%\n", missed, streams,
               100 * at_most(missed, streams));
-  // Of few turns, and a slip in one of them: at most 1 in 100 (the binomial's 99 % of 300).
+  // With few turns, and a slip in one of them: at most 1 in 100 (the binomial's 99 % of 300).
   EXPECT_LE(missed, 8);
 }
 

@@ -70,8 +70,8 @@ TEST(SensorDoubts, LobesElsewhereAreAGo) {
   EXPECT_LE(coaxiality_mm_of(result, 0.03), tolerance_mm);
 }
 
-// 2 and 3 undulations of 2 µm beside an eccentricity of 15 µm would be a sensor that errs by a
-// quarter of its range, and one would move the axis by 6 µm. The axis is known to better than 0.5.
+// 2 and 3 undulations of 2 µm with an eccentricity of 15 µm would be a sensor that errs by a
+// quarter of its range. One would move the axis by 6 µm. The axis is known to better than 0.5.
 TEST(SensorDoubts, ASensorDoesNotBendByAQuarterOfItsRange) {
   for (const double eccentric_mm : {0.015, 0.03}) {
     const JobResult result = job_of_lobes(eccentric_mm, 2e-3, 2e-3, 0.0);

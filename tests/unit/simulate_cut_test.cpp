@@ -26,7 +26,7 @@ CutProgram cylinder(double nose_mm, double feed_mm) {
   return program;
 }
 
-// offset(C, position) on 360 rows a turn, over the whole cut.
+// offset(C, position) on 360 rows per revolution, over the whole cut.
 template <class Offset>
 CutTable table_of(const CutProgram& program, const Offset& offset) {
   CutTable table;
@@ -80,7 +80,7 @@ TEST(SimulateCut, ConeIsCutAtItsRadiusWhateverNoseAndHeight) {
     const CutPart part(program, {});
     for (const double z : {-0.5, -5.0, -9.5}) {
       const double radius = 30.0 + z * std::tan(15.0 * rad_per_deg);
-      // Marks of f²/8rn = 0.125 µm stand over the surface.
+      // Marks of f²/8rn = 0.125 µm rise above the surface.
       EXPECT_GE(part.surface_mm(0.3, z), radius - 1e-9) << height;
       EXPECT_LE(part.surface_mm(0.3, z), radius + 2e-4) << height;
     }
@@ -131,7 +131,7 @@ TEST(SimulateCut, SecondOrderActuatorFollowsItsFrequencyResponse) {
   const double sinc = std::sin(w * t / 2.0) / (w * t / 2.0);
   const std::complex<double> theory = 0.1 * second * sinc * std::polar(1.0, -w * (1e-4 + t / 2.0));
   // 360 rows joined by lines pass a harmonic by sinc²(πn/360); aliases of hold and rows stay
-  // outside it, what is left is the motion's own interpolation (4096 a turn).
+  // outside it, the rest is the motion's own interpolation (4096 a turn).
   const double x = two_pi / 2.0 * order / 360.0;
   const double lines = std::pow(std::sin(x) / x, 2);
   EXPECT_NEAR(std::abs(sum), lines * std::abs(theory), 2e-5 * 0.1);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double radius_mm = 40.0, tangent = 0.1;
 
-// Out over Z −20 … 20 at 60 rpm: centred cylinder or cone, 24 readings a turn.
+// Out over Z −20 … 20 at 60 rpm: centred cylinder or cone, 24 readings per revolution.
 Scenario helix(PartKind kind) {
   Scenario scenario;
   scenario.part.kind = kind;

@@ -14,8 +14,8 @@
 namespace trueaxis::virtual_lathe {
 namespace {
 
-// Readings are roots to the last bits of numbers near 50: 1e-13 is a few units in the last place
-// of the sums behind them.
+// Readings are roots to the last bits of numbers near 50: 1e-13 is a few units in the last place of
+// the sums that they come from.
 constexpr double exact_mm = 1e-12;
 
 Scenario dwell(double radius_mm, double z_mm = 0.0, double readings = 360.0) {

@@ -23,7 +23,7 @@ TEST(SimulateScenario, TheConeOfThePaperIsReadAndProbed) {
   EXPECT_DOUBLE_EQ(scenario.part.half_angle_rad, 15.5 * rad_per_deg);
   EXPECT_DOUBLE_EQ(scenario.noise.sigma_mm, 0.01);
   const ProbeStream stream = simulate(scenario);
-  EXPECT_EQ(stream.size(), 2001u);  // 40 mm at 0.2 mm/rev, ten readings a turn, both ends
+  EXPECT_EQ(stream.size(), 2001u);  // 40 mm at 0.2 mm/rev, ten readings per revolution, both ends
   EXPECT_EQ(stream.sensor_noise_mm, 0.01);
   EXPECT_EQ(stream.spindle_rpm, 60.0);
   EXPECT_DOUBLE_EQ(stream.time_s.back(), 200.0);

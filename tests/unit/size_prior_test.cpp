@@ -89,7 +89,7 @@ TEST(SizePrior, AnUnknownSizeIsTheBic) {
   EXPECT_NEAR(criterion, n * std::log(1.0 - gram * a_hat * a_hat / rss) + std::log(n), 0.1);
 }
 
-// A sensor whose gain is 79 % off is none: however well the readings show it.
+// A sensor whose gain is 79 % off does not exist: however well the readings show it.
 TEST(SizePrior, WhatIsBeyondAnySizeIsNotPossible) {
   const SizePrior gain = size_prior(of_effect("probe.gain", {}));
   EXPECT_TRUE(gain.allows(Eigen::VectorXd::Constant(1, -0.19)));
@@ -104,7 +104,7 @@ TEST(SizePrior, WhatIsBeyondAnySizeIsNotPossible) {
   };
   EXPECT_TRUE(found(0.02, 1e-3).possible);
   EXPECT_FALSE(found(-0.79, 1e-2).possible);
-  // Nor does what the readings leave open make U of such a size: 0.2 is the largest scale.
+  // Nor does U have such a size from what remains open: 0.2 is the largest scale.
   EXPECT_LT(found(0.0, 10.0).covariance(0, 0), 0.2 * 0.2);
 }
 

@@ -156,7 +156,7 @@ TEST(SphereTorus, AreFittedAndNotDiagnosedAndTakeNoGauge) {
   EXPECT_THROW(fit(stream, options.fit), InputError);
 }
 
-/// A ball larger than what it touches is said, as of a cylinder.
+/// A ball larger than what it touches is reported, as for a cylinder.
 TEST(Sphere, ABallThatIsTooLargeIsSaid) {
   FitOptions options;
   options.surface = SurfaceKind::sphere;
@@ -178,7 +178,7 @@ TEST(Sphere, ASphereFromAFileIsRefusedAsACylinder) {
   EXPECT_NE(result.message.find("sphere of radius 25 mm"), std::string::npos) << result.message;
 }
 
-/// One section of a sphere: neither its height nor its radius can be told.
+/// One section of a sphere: neither its height nor its radius is known.
 TEST(Sphere, OneSectionIsNotEnough) {
   ProbeStream stream;
   for (int i = 0; i < 40; ++i) {

@@ -31,7 +31,7 @@ ProbeStream through(const std::vector<Point3>& points) {
   return stream;
 }
 
-/// Axis (0.03, -0.02) at Z = 0 with slopes 1e-3 and -2e-3; of it `radius` + `growth` s, and
+/// Axis (0.03, -0.02) at Z = 0 with slopes 1e-3 and -2e-3; with `radius` + `growth` s, and
 /// `lobes_mm` cos 3θ.
 std::vector<Point3> revolved(double radius, double growth, double lobes_mm) {
   const double n = 1.0 / std::sqrt(1.0 + 1e-6 + 4e-6), l = 1e-3 * n, m = -2e-3 * n;

@@ -94,7 +94,8 @@ TEST(SweepLists, ReplaceThoseOfTheScenario) {
   EXPECT_TRUE(back.effects.empty());
 }
 
-// Lists first, then the numbers, wherever the axes stand; a travel keeps the way of its pass.
+// Lists first, then the numbers, wherever the axes are in the file; a travel keeps the way of its
+// pass.
 TEST(SweepLists, ComeBeforeAllNumbers) {
   for (const std::string& text : {part + plans + length, part + length + plans}) {
     const study::Sweep sweep = parse_sweep(text);

@@ -95,7 +95,7 @@ high = -2
         "gives 2 but must give", "needs `values`, `from` `to` `count`, or a `distribution`",
         "must be more than `low`", "must be more than 0"})
     EXPECT_NE(said.find(part_of), std::string::npos) << part_of << "\nsaid: " << said;
-  EXPECT_NE(said.find("sweep.toml:19:"), std::string::npos) << said;  // where sigam stands
+  EXPECT_NE(said.find("sweep.toml:19:"), std::string::npos) << said;  // where `sigam` is
 }
 
 TEST(SweepToml, RefusesWhatIsNoSweep) {

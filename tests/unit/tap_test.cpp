@@ -14,8 +14,8 @@ namespace {
 
 constexpr double off_mm = 0.05, noise_mm = 1e-4;
 
-/// A cylinder that stands out towards the probe at C = `high_deg`: a front probe reads
-/// r + off cos(C − high), one behind the same with its sign turned.
+/// A cylinder that is off towards the probe at C = `high_deg`: a front probe reads r + off cos(C −
+/// high), one at the rear the same with its sign turned.
 ProbeStream probed(double high_deg, double sign) {
   ProbeStream stream;
   stream.source = "shaft.csv";

@@ -51,7 +51,7 @@ TEST(TargetAxis, OneReferenceIsItsOwnTarget) {
     EXPECT_NEAR(target.axis.u_at(z), reference.axis.u_at(z), 1e-12);
   }
   EXPECT_NEAR(target.remainders[0].coaxiality_mm, 0.0, 1e-15);
-  // What is left is known no better than the reference itself: as a diameter, at the worse end.
+  // The residual is known no better than the reference itself: as a diameter, at the worse end.
   EXPECT_NEAR(target.remainders[0].u_coaxiality_mm, 2.0 * reference.axis.u_at(0.0), 1e-15);
 }
 

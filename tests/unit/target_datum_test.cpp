@@ -100,7 +100,7 @@ Eigen::Vector4d least_squares_of(const std::vector<ProbeStream>& streams) {
   return p.head<4>();
 }
 
-/// Two seats that are not quite coaxial. Of each alone the tilt, over the 100 mm between them, is
+/// Two seats that are not quite coaxial. The tilt of each alone, over the 100 mm between them, is
 /// far off; the weighted compromise takes both. The common axis is that of the points. Readings
 /// along the probe line and distances differ by (e/R)² of the residuals, 4e-6 of 10 µm.
 TEST(TargetDatum, ACommonDatumIsLeastSquaresOfBothSeats) {
@@ -125,7 +125,7 @@ TEST(TargetDatum, ACommonDatumIsLeastSquaresOfBothSeats) {
   EXPECT_EQ(result.verdict.decision, Decision::go) << verdict_line(result);
 }
 
-/// A seat in the middle that stands beside the line of the two others counts the same however
+/// A seat in the middle that is off the line of the two others counts the same however
 /// densely it was probed: by twice the readings the axis would move by a micrometre.
 TEST(TargetDatum, ASeatCountsByItsWeightNotByItsReadings) {
   const ProbeStream low = seat(20.0, 0.0, {0.02, -0.01, 0.0, 0.0}, 1);
@@ -197,7 +197,7 @@ bool says(const JobResult& result, const std::string& part) {
   return verdict_line(result).find(part) != std::string::npos;
 }
 
-/// A seat that was probed in another clamping stands elsewhere: nothing shows it but the other
+/// A seat that was probed in another clamping is elsewhere: nothing shows it but the other
 /// seat.
 TEST(TargetDatum, SeatsThatShareNoAxisAreNoDatum) {
   const Stands at{0.02, -0.01, 2e-4, 1e-4}, elsewhere{0.12, 0.08, -6e-4, 2e-4};
@@ -213,7 +213,7 @@ TEST(TargetDatum, SeatsThatShareNoAxisAreNoDatum) {
   EXPECT_TRUE(says(alone, "off the datum A")) << verdict_line(alone);
 }
 
-/// A slip while B is probed leaves A where the part stood before.
+/// A slip while B is probed leaves A where the part was before.
 TEST(TargetDatum, ASlipLeavesTheOtherReferencesBehind) {
   const Stands at{0.02, -0.01, 0.0, 0.0};
   virtual_lathe::Scenario scenario;

@@ -29,7 +29,7 @@ TEST(Philox, GivesTheKnownAnswers) {
             (Four{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-/// Largest distance of the sample's distribution from `cdf`, over what chance exceeds with
+/// Largest distance of the sample's distribution from `cdf`, over what a true sample exceeds with
 /// probability `level` at most (Dvoretzky, Kiefer, Wolfowitz; Massart's constant).
 double kolmogorov(std::vector<double> sample, const std::function<double(double)>& cdf) {
   std::sort(sample.begin(), sample.end());

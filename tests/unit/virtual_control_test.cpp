@@ -38,7 +38,7 @@ TEST(VirtualControl, CarriesOutAProgram) {
   ASSERT_EQ(moves.size(), 8u);
   const double expected[][4] = {
       {2, 3, 4, 0.2},
-      {2, 3, 2.5 - 80, 0.2},  // Z moves the tool down for +: length taken off
+      {2, 3, 2.5 - 80, 0.2},  // Z moves the tool down for +: length subtracted
       {26.4, 3, 2.5 - 80, 0.2},
       {27.4, 3, 2.5 - 80, 0.2 + 9 * rad_per_deg},
       {27.4, 9, 2.5 - 80, 0.2 + 9 * rad_per_deg},

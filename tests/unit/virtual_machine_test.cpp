@@ -91,7 +91,7 @@ TEST(VirtualMachine, StandsWhereTheModelSays) {
     const Setting setting{{}, 80.0};
     const Vector3 modelled = model.actual(axes, setting).tip_mm;
     const virtual_machine::Ends ends = virtual_machine::ends(machine, errors, axes);
-    // The point of the part at which the model has the tip stands where the tip stands.
+    // The point of the part at which the model has the tip is where the tip is.
     const Vector3 there = virtual_machine::transformed(ends.bed_from_table, modelled);
     const Vector3 tip = virtual_machine::tip_mm(machine, ends, 80.0);
     for (std::size_t i = 0; i < 3; ++i)
