@@ -137,7 +137,8 @@ std::vector<Effect> probe_response() {
        .separations = {{"XJ", "a jog by p/2 turns its sign"}},
        .source = "interpolation error of incremental scales",
        .typical = {{&TermShape::period_mm, {0.137}}},
-       // Of few cycles over the swing, a periodogram that forgets the surface's columns misses it.
+       // With few cycles over the swing, a periodogram that forgets the surface's columns misses
+       // it.
        .search = {.forms = {{.starts = {&TermShape::period_mm,
                                         {0.5, 0.7, 0.9, 1.15, 1.5, 1.9, 2.4, 3.0},
                                         ShapeValues::In::per_swing},

@@ -16,8 +16,8 @@ using Of = Response::Of;
 
 constexpr double pi = 0.5 * two_pi;
 
-// The trigger path lies along X, into the material, and varies with the direction ψ of the normal
-// across the stylus, sin of its angle to X being the size (Eq. 51).
+// The trigger path lies along X, into the material. It varies with the direction ψ of the normal
+// across the stylus; the size is the sine of its angle to X (Eq. 51).
 void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) {
   const double out_of = contact::away(at);
   Chunk slope, secant, across, psi;
@@ -58,9 +58,9 @@ double lag(const TermContext& at, double T, std::size_t i) {
   return turning - at.velocity_mm_per_s[i] * at.dx_dz[i];
 }
 
-// Reversed, X goes back by the play b before the reading follows; until then the reading stands. X
-// is nearly E cos ψ + p ψ, ψ running with the spindle and p what the feed adds: it grows from
-// ψ = −π − a to a and falls from a to π − a, sin a = p/E (Eq. 53a).
+// Reversed, X goes back by the play b before the reading follows; until then the reading does not
+// change. X is nearly E cos ψ + p ψ, ψ running with the spindle and p what the feed adds: it grows
+// from ψ = −π − a to a and falls from a to π − a, sin a = p/E (Eq. 53a).
 double hysteresis(const TermContext& at, double play_mm, std::size_t i) {
   const double turning = std::abs(at.speed_rad_per_s[i]);
   const double advancing = at.velocity_mm_per_s[i] * at.dx_dz[i];
@@ -76,7 +76,7 @@ double hysteresis(const TermContext& at, double play_mm, std::size_t i) {
   const double low = x_mm(-pi - extreme), high = x_mm(extreme), end = x_mm(pi - extreme);
   const double flat = std::min({play_mm, high - low, high - end});
   const double back = std::clamp(grows ? x_mm(psi) - low : high - x_mm(psi), 0.0, flat);
-  // Where the feed goes all of the play is taken up, the other way what there is of it.
+  // In the direction of the feed all of the play counts, the other way what there is of it.
   const double taken_up = grows == outward ? flat - back : back;
   return (outward ? -1.0 : 1.0) * (0.5 - taken_up / play_mm);
 }
@@ -131,7 +131,7 @@ Parameters parameters(const ProbeLine& term, const TermShape&) {
 }
 
 // Tilt: the contact's height on the line is Z + X sin γ; of a face its X is X − Z sin γ. Ball: its
-// centre stands off along the normal, out of the material.
+// centre is off along the normal, out of the material.
 void fill(const ProbeLine& term, const TermContext& at, const TermShape&, Columns out) {
   switch (term.of) {
     case ProbeLine::Of::height:
@@ -182,7 +182,7 @@ std::size_t count(const Response& term, const TermShape&) {
 }
 
 void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out) {
-  const double side = at.rear ? -1.0 : 1.0;  // behind, the gauge is turned round
+  const double side = at.rear ? -1.0 : 1.0;  // at the rear, the gauge is turned round
   switch (term.of) {
     case Of::gain:
       for (std::size_t i = 0; i < at.size(); ++i) {
@@ -229,7 +229,7 @@ Parameters parameters(const PartStep& term, const TermShape&) {
 // A part that moved along x and y of the spindle frame is met at X = f(Y − b, Z) + a with a, b the
 // motion along machine X and Y; one that slipped by `turn` in the sense of C, at C − turn. A tilt
 // about the middle of what was probed moves it by its lever there, and along Z by −X times the tilt
-// towards the probe. The surface is where the part stands after it: before the step, all of that is
+// towards the probe. The surface is where the part is after it: before the step, all of that is
 // missing. Eq. 46.
 void fill(const PartStep& term, const TermContext& at, const TermShape& shape, Columns out) {
   Chunk sine, cosine, slope;

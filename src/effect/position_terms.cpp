@@ -11,7 +11,7 @@ namespace {
 using Angle = Harmonic::Angle;
 using Envelope = Harmonic::Envelope;
 
-/// Of the factors cos, sin of a value that moves `port`.
+/// The columns of the factors cos, sin of a value that moves `port`.
 std::string unit_of(TermPort port) { return port == TermPort::c ? "rad" : "mm"; }
 
 double order_of(const Harmonic& term, const TermShape& shape) {
@@ -30,13 +30,13 @@ std::span<const double> angle_of(Angle angle, const TermContext& at) {
   return at.c_rad;
 }
 
-// Of u² over the probed length: less it, a bent axis (n = 1) is about the straight line nearest to
-// it.
+// The mean of u² over the probed length: less it, a bent axis (n = 1) is about the straight line
+// nearest to it.
 double mean_of_u2(const Harmonic& term, const TermShape& shape) {
   return order_of(term, shape) == 1.0 ? 1.0 / 3.0 : 0.0;
 }
 
-// The factor along Z; 1 is left out. A shift of the axis by δ towards θ = 0 is the form
+// The factor along Z; 1 is not written. A shift of the axis by δ towards θ = 0 is the form
 // δ cos α cos θ along the normal.
 void scale_by_envelope(const Harmonic& term, const TermContext& at, const TermShape& shape,
                        Columns out) {

@@ -49,7 +49,7 @@ struct Association {
 };
 
 /// Starting values from the data, then the minimum of the loss; a robust scale and the minimum are
-/// found in turn until the scale stands (Huber, Robust Statistics, 1981, section 7.8).
+/// found in turn until the scale no longer changes (Huber, Robust Statistics, 1981, section 7.8).
 Association associate(const JointModel& model, Loss loss, int max_iterations);
 
 /// ψ and ψ' of a loss at a residual (Eqs. 26, 27).

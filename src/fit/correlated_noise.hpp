@@ -15,9 +15,9 @@ struct CorrelatedNoise {
   Eigen::MatrixXd jtcj;     ///< JᵀCJ, C the correlation matrix of the noise of all readings
 };
 
-/// The autoregression of residuals clipped at ± `clip_mm`; rejected readings do not count. None
-/// where too few readings follow upon each other, where these are white, or where what they leave
-/// rings with the spindle: that is form, not noise (Eqs. 34a, 65).
+/// The autoregression of residuals clipped at ± `clip_mm`; excluded readings do not count. There is
+/// none if too few readings follow each other, if these are white, or if the residuals ring with
+/// the spindle: that is form, not noise (Eqs. 34a, 65).
 std::optional<CorrelatedNoise> find_correlated_noise(const JointModel& model,
                                                      const Association& association,
                                                      double clip_mm);

@@ -132,7 +132,7 @@ void check_rival(const JointModel& model, const std::vector<PlacedSetUp>& set_up
   if (!text.empty()) result.not_determined.push_back("two surfaces fit equally well: " + text);
 }
 
-/// The surface as it stood in one set-up.
+/// The surface as it was in one set-up.
 struct Standing {
   const Surface& surface;
   std::vector<double> working;

@@ -170,7 +170,7 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
     as_other.surface = surface;
     try {
       return fit_as_read(other, as_other);
-    } catch (const InputError&) {  // read so, it is no stream of this surface at all
+    } catch (const InputError&) {  // read so, it is not a stream of this surface at all
       return FitResult{};
     }
   };

@@ -231,7 +231,7 @@ NormalMatrix JointModel::accumulate(std::span<const double> joint, const LossSca
     out.sum_rho += of_part.sum_rho;
     out.curvature += of_part.curvature * static_cast<double>(part.rows.size());
   }
-  out.curvature /= static_cast<double>(size_);  // one loss for all: the parts differ by chance
+  out.curvature /= static_cast<double>(size_);  // one loss for all: the parts differ at random
   out.valid = true;
   return out;
 }

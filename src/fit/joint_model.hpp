@@ -35,7 +35,7 @@ struct JointPart {
 /// clamping: the parameters are the working parameters of the surface themselves (Eqs. 29, 30).
 class JointModel {
  public:
-  /// Of `frame` all but side and positions, which are those of each set-up. The stream must outlive
+  /// All of `frame` but side and positions, which are those of each set-up. The stream must outlive
   /// the model.
   JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
              const CatalogueEntry& surface, const SurfaceFrame& frame);
@@ -77,7 +77,7 @@ class JointModel {
                     const SurfaceFrame& frame);
   std::size_t part_index(const PlacedSetUp& set_up) const;
   std::size_t joint_index(std::size_t clamping, std::size_t working_index) const;
-  /// What the tilt of an axis and the place where it is taken add to s.
+  /// What the tilt of an axis and its reference place add to s.
   double beyond_ref(std::size_t clamping, double slope_x, double slope_y) const;
   bool shares_taper() const {
     return clampings() > 1 && radius_ < working_names_.size() && tan_ < working_names_.size();

@@ -113,8 +113,8 @@ void turn_as_reading_does(ProbeStream& stream) {
   const Wave wave(stream);
   if (!(wave.turns > 0.0)) return;
   const double step = 0.25 / std::max(wave.turns, 1.0);
-  // Where a ninth of the square goes once a revolution of C as written, only a line beside that,
-  // which takes part of it, can be the misreading: any other leaves too much.
+  // If a ninth of the square goes once per revolution of C as written, only a line next to that,
+  // which explains part of it, can be the misreading: any other leaves too much.
   const bool once = 9.0 * wave.share(1.0) > 1.0;
   const double from = once ? 1.0 - 4.0 * step : lowest_order;
   const double to = once ? 1.0 + 4.0 * step : highest_order;

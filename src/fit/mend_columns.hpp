@@ -24,7 +24,7 @@ void unwrap_c(ProbeStream& stream) {
   }
 }
 
-/// An angle that jumps back by the same amount once a revolution (400 gon, 6400 mils, a counter):
+/// An angle that jumps back by the same amount once per revolution (400 gon, 6400 mils, a counter):
 /// that amount is the revolution.
 void begin_anew_each_turn(ProbeStream& stream);
 

@@ -57,7 +57,7 @@ void factorise(const NormalMatrix& normal, Square<Most>& r, Column<Most>& z) {
 }
 
 /// The whole stream as one block of p + 1 residuals. Evaluated points are remembered: Ceres asks
-/// for the cost of a candidate first and, when it is taken, for the Jacobian at the same point.
+/// for the cost of a candidate first and, if it accepts it, for the Jacobian at the same point.
 template <int Most>
 /// Eq. 22.
 class CompressedCost final : public ceres::CostFunction {
@@ -186,8 +186,8 @@ Minimum minimise_sized(const JointModel& model, std::vector<double> start, const
   options.initial_trust_region_radius =
       1e12;  // Gauss-Newton until a step fails: the start is close
   options.max_trust_region_radius = 1e32;
-  // A step that changes the cost by less is below 1e-6 of the noise, and the point it leads to
-  // (which is kept, see best()) is closer by the factor noise / radius again.
+  // A step that changes the cost by less is below 1e-6 of the noise. The point it leads to (which
+  // is kept, see best()) is closer by the factor noise / radius again.
   options.function_tolerance = 1e-12;
   options.parameter_tolerance = 1e-15;
   options.gradient_tolerance = 1e-300;

@@ -11,8 +11,8 @@
 
 namespace trueaxis {
 
-/// A set-up of the stream, the clamping it stands in (the set-ups from one move of the part to the
-/// next) and the side it was probed from.
+/// A set-up of the stream, its clamping (the set-ups from one move of the part to the next) and the
+/// side it was probed from.
 struct PlacedSetUp {
   SetUp set_up;
   std::size_t clamping = 0;
@@ -26,7 +26,7 @@ struct PlacedSetUp {
 /// "set-up 2".
 std::string set_up_name(const SetUp& set_up);
 
-/// Clampings are told by the metadata, sides by the metadata or else by the sign of X_M.
+/// The metadata give the clampings, and the metadata or else the sign of X_M the sides.
 /// @throws InputError where X_M changes sign within a set-up, or contradicts a stated side.
 std::vector<PlacedSetUp> place_set_ups(const ProbeStream& stream);
 

@@ -70,7 +70,7 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
   const std::string remedy =
       "Check that columns, units and surface are right. If the sensor really scatters like that, "
       "state it: '# sensor_noise: 1 mm'";
-  // A keyway or a chip is no scatter: the bulk of the residuals is looked at.
+  // A keyway or a chip is not scatter: the bulk of the residuals counts.
   if (fit.rms_mm > limit_mm && mad_sigma(fit.residual_mm) > limit_mm) {
     const std::string other = other_surface(stream, fit, refit);
     return fmt::format(
@@ -136,7 +136,7 @@ std::string is_sphere(const ProbeStream& stream, const FitResult& fit, const Ref
       sphere.parameter("radius").value, stream.source);
 }
 
-/// Correlation of what is left in the order of `rows`, from one to the next.
+/// Correlation of the residuals in the order of `rows`, from one to the next.
 double neighbours_correlate(const std::vector<double>& left_mm,
                             const std::vector<std::size_t>& rows) {
   double products = 0.0, squares = 0.0;
@@ -192,7 +192,7 @@ std::string implausible(const ProbeStream& stream, const FitResult& fit, const R
   if (std::string why = column_objection(stream); !why.empty()) return why;
   if (std::string why = alternate_rows(stream, fit); !why.empty()) return why;
   if (std::string why = likely_misreading(stream, fit, refit); !why.empty()) return why;
-  // Who fills a stream in a program knows its units: a model may have any scale.
+  // A program that fills a stream knows its units: a model may have any scale.
   if (!stream.x_convention || fit.status != FitStatus::converged) return "";
   if (std::string why = is_sphere(stream, fit, refit); !why.empty()) return why;
   if (std::string why = unlike_noise(stream, fit); !why.empty()) return why;

@@ -10,7 +10,7 @@
 namespace trueaxis::infer {
 namespace {
 
-constexpr double share_of_best = 0.8;  // of the largest rise: among these the fastest is taken
+constexpr double share_of_best = 0.8;  // of the largest rise: among these the fastest wins
 constexpr double worth_taking = 0.02;
 
 Separating nothing_helps(double before, const std::string& why) {

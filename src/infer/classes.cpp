@@ -10,7 +10,7 @@ namespace {
 
 constexpr double structural = 0.999;
 constexpr double unlike = 0.2;  // share of the named prediction that is left: what columns bend
-constexpr double implausible = 1e-3;  // of the class: by its size, or a chance among many shapes
+constexpr double implausible = 1e-3;  // of the class: by its size, or as one of many shapes
 
 /// Probabilities by the criteria, and what is too improbable for a class.
 Class settled(const Class& found, const Named& named, std::span<const Cause> causes) {

@@ -16,11 +16,11 @@ struct Hypothesis {
   double largest = 1.0;                         ///< size that is plausible at most
   double size_median = 0.0, size_spread = 1.0;  ///< of a coefficient, of its logarithm; 0: unknown
   double tests = 1.0;                           ///< how many places of it were tried
-  bool pattern = false;                         ///< no effect, only what is left over
+  bool pattern = false;                         ///< no effect, only a residual
   bool barred = false;                          ///< a pattern that an effect makes at these rows
 };
 
-/// Hypotheses beside what is always fitted, as the Gram matrix of residuals and columns over σ,
+/// Hypotheses after what is always fitted, as the Gram matrix of residuals and columns over σ,
 /// projected (Eq. 178): column 0 the residuals, then those of the hypotheses. The columns of one
 /// are made orthonormal; those of its directions that stay below one σ at their largest plausible
 /// size are dropped (Eq. 174).
@@ -54,11 +54,11 @@ class Dictionary {
   double gain(const Set& set) const { return gram_(0, 0) - fitted(set).rss; }
   double variance(const Set& set) const;  ///< of a residual over its σ
 
-  /// ln p of the F test of a hypothesis beside others (Eq. 179).
+  /// ln p of the F test of a hypothesis after others (Eq. 179).
   double log_p(const Projection& others, std::size_t term) const {
     return log_p_of(others, blocks_[term].columns, rows_);
   }
-  /// Data and prior of a hypothesis, whose columns are these, beside others, with what its choice
+  /// Data and prior of a hypothesis, whose columns are these, after others, with what its choice
   /// among many and that it is a pattern cost (Eqs. 78, 80).
   Weighed weighed(std::size_t term, const Projection& others, const Columns& columns) const;
   Weighed weighed(std::size_t term, const Projection& others) const {
@@ -71,9 +71,9 @@ class Dictionary {
   double independent_tests() const;
 
   const Eigen::MatrixXd& basis() const { return basis_; }  ///< orthonormal, of the base
-  /// The orthonormal columns of a set, over σ and beside the base.
+  /// The orthonormal columns of a set, over σ and after the base.
   Eigen::MatrixXd columns(const Set& set) const { return all_(Eigen::all, columns_of(set)); }
-  auto residuals() const { return all_.col(0); }  ///< beside the base
+  auto residuals() const { return all_.col(0); }  ///< after the base
 
  private:
   std::vector<Block> blocks_;
@@ -81,7 +81,7 @@ class Dictionary {
   std::size_t rows_ = 0;
 };
 
-/// A set with one of its terms behind all others.
+/// A set with one of its terms after all others.
 Dictionary::Set with_last(const Dictionary::Set& set, std::size_t at);
 
 }  // namespace trueaxis::infer

@@ -71,7 +71,7 @@ class Search {
     return !dictionary_.block(t).columns.empty() && !dictionary_.block(t).barred;
   }
 
-  /// The best term beside others. @param passing that passes its test as well
+  /// The best term after others. @param passing that passes its test as well
   std::optional<std::size_t> best(const Set& others, bool passing) const {
     const Projection beside = dictionary_.beside(others);
     std::optional<std::size_t> first;
@@ -80,7 +80,7 @@ class Search {
       if (!may_be_taken(t) || std::ranges::find(others, t) != others.end()) continue;
       if (passing && family_p(dictionary_, options_, beside, t) >= options_.false_alarm) continue;
       const double value = dictionary_.weighed(t, beside).criterion;
-      // Of two alike (orders that the positions alias) the first stands.
+      // Of two alike (orders that the positions alias) the first stays.
       if (!first || value < least - 1e-6) first = t, least = value;
     }
     return first;

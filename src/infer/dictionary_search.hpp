@@ -12,7 +12,7 @@ namespace trueaxis::infer {
 /// How the false alarm of a measurement is shared out.
 inline constexpr double share_of_effects = 0.6, share_of_patterns = 0.3, share_of_scatter = 0.1;
 
-/// What a search is told and what its verdicts are worth.
+/// What a search needs to know and what its verdicts are worth.
 struct SearchOptions {
   double false_alarm = 0.01;  ///< of everything
   double tests = 1.0;         ///< all effects that are tried, at every place
@@ -25,22 +25,22 @@ struct SearchOptions {
   }
 };
 
-/// p of a hypothesis beside others in its family.
+/// p of a hypothesis after others in its family.
 double family_p(const Dictionary& dictionary, const SearchOptions& options,
                 const Projection& others, std::size_t term);
 
 /// The hypotheses that explain the residuals: forward one at a time, every pair of the best hundred
-/// beside the first, those dropped that no longer pass, and each exchanged for a better one.
+/// next to the first, those dropped that no longer pass, and each exchanged for a better one.
 Dictionary::Set search(const Dictionary& dictionary, const SearchOptions& options);
 
 /// The other effects of a dictionary that the data do not tell from one of a set (Eqs. 87-93).
 Class class_of(const Dictionary& dictionary, const Dictionary::Set& set, std::size_t at);
 
-/// What tests of the noncentral F distribution find of a term beside others, in the phase that
+/// What tests of the noncentral F distribution find of a term after others, in the phase that
 /// shows it least (Eq. 182).
 class Detection {
  public:
-  /// @param found what is fitted beside the base
+  /// @param found what is fitted after the base
   /// @param variance of a residual over its σ
   Detection(const Dictionary& dictionary, const Dictionary::Set& found, double variance,
             const SearchOptions& options)

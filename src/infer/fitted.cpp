@@ -9,8 +9,8 @@
 namespace trueaxis::infer {
 namespace {
 
-/// ln det(G + Λ), Λ what the plausible sizes add: of terms that share their columns the width of
-/// all together is not the sum of what each has beside the others.
+/// ln det(G + Λ), Λ what the plausible sizes add: if terms share their columns, the width of all
+/// together is not the sum of what each has after the others.
 double shared_width(const Projection& beside, const Columns& own, const Weighed& sizes) {
   Eigen::MatrixXd gram = beside.gram(own, own);
   gram.diagonal() += sizes.precision;

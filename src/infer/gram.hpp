@@ -21,13 +21,13 @@ struct Solution {
 };
 Solution solve(const Eigen::MatrixXd& gram, const Columns& columns);
 
-/// What is left of every column once some are taken out by least squares. Eq. 58.
+/// The residual of every column once some are taken out by least squares. Eq. 58.
 class Projection {
  public:
   /// @param gram outlives this
   Projection(const Eigen::MatrixXd& gram, const Columns& taken)
       : Projection(gram, solve(gram, taken)) {}
-  /// The same by least squares over what is taken, which are those of this matrix.
+  /// The same by least squares over the chosen columns, which are those of this matrix.
   Projection(const Eigen::MatrixXd& gram, const Solution& taken);
 
   Eigen::VectorXd norm2;  ///< of the columns before
@@ -42,7 +42,7 @@ class Projection {
 
  private:
   const Eigen::MatrixXd* whole_;
-  Eigen::MatrixXd cross_, weighted_;  ///< of what was taken, and times the inverse of its own
+  Eigen::MatrixXd cross_, weighted_;  ///< of the chosen columns, and times the inverse of their own
 };
 inline Projection project(const Eigen::MatrixXd& gram, const Columns& taken) {
   return {gram, taken};
@@ -56,7 +56,7 @@ struct Score {
 /// Eq. 59.
 Score score(const Projection& projection, const Columns& columns);
 
-/// Sum of squares of a block that was held out, predicted by columns fitted to the others (Eq. 82).
+/// Sum of squares of a block, predicted by columns fitted to the other blocks (Eq. 82).
 double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const Columns& columns);
 /// The same to rounding, and faster: where the columns are independent beyond doubt their
 /// coefficients are from a Cholesky factor.

@@ -15,7 +15,7 @@ struct Family {
   double single = 0.0;
   double bandwidth = 0.0;
 
-  /// Probability that the largest of all statistics passes one with this single p-value by chance.
+  /// Probability that the largest of all statistics of noise passes one with this single p-value.
   double p_value(double single_p) const;
   /// Statistic with two degrees of freedom that does so with probability `level`.
   double threshold(double level) const;
@@ -26,7 +26,7 @@ struct Family {
 /// Degrees of freedom of a σ that is known: the F test is then one of χ².
 inline constexpr double known_sigma = std::numeric_limits<double>::infinity();
 
-/// Probability that a test of `rank` columns beside `freedom` further degrees of freedom, of
+/// Probability that a test of `rank` columns with `freedom` further degrees of freedom, of
 /// noncentrality λ, has a p-value below `single_p` (Eqs. 97, 182).
 double detection_power(double lambda, double rank, double freedom, double single_p);
 

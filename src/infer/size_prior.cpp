@@ -33,7 +33,7 @@ constexpr std::array<Node, 9> nodes{{{-2.0, 0.054},
                                      {6.0, 1e-5},
                                      {8.0, 1e-6}}};
 
-/// A term's columns beside others, and what is left of the readings without it.
+/// A term's columns after others, and the residual of the readings without it.
 struct Beside {
   const Eigen::MatrixXd& gram;
   const Eigen::VectorXd &right, &norm2;

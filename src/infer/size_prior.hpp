@@ -29,7 +29,7 @@ constexpr double open_end = 0.05;  ///< share of the upper end where a range beg
 /// handbook is sharper than 0.7.
 double spread_of_size(double log_high_over_low);
 
-/// What data and prior say of a term beside others.
+/// What data and prior say of a term after others.
 struct Weighed {
   double criterion = 0.0;      ///< −2 ln of the marginal likelihood over that without the term
   Eigen::VectorXd mean;        ///< of the coefficients
@@ -47,7 +47,7 @@ struct Weighed {
 Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
               const Eigen::VectorXd& norm2, double rss, double freedom);
 
-/// The same of columns beside what the projection took out.
+/// The same of columns after what the projection took out.
 /// @param count rows of the equations
 Weighed weigh(const SizePrior& prior, const Projection& projection, const Columns& own,
               std::size_t count);

@@ -15,7 +15,7 @@ Terms without(Terms terms, std::size_t i) {
   return terms;
 }
 
-/// Takes the best term that passes its test beside all others, one after the other.
+/// Takes the best term that passes its test after all others, one after the other.
 template <class Side>
 void take_what_passes(Side& side) {
   while (side.terms().size() < side.most()) {
@@ -26,7 +26,7 @@ void take_what_passes(Side& side) {
   }
 }
 
-/// A term stays if its test beside all others passes; else the weakest goes, one after the other.
+/// A term stays if its test after all others passes; else the weakest goes, one after the other.
 /// @returns whether one went
 template <class Side>
 bool drop_what_fails(Side& side) {
@@ -46,8 +46,8 @@ bool drop_what_fails(Side& side) {
   return changed;
 }
 
-/// Puts the best there is beside `others` in the place of what they leave out, where the criterion
-/// is better for it.
+/// Puts the best that `others` allow in the place of a term that is not among them, if the
+/// criterion is better for it.
 template <class Side, class Terms>
 bool replace(Side& side, Terms others) {
   auto best = side.best_beside(others);
@@ -72,10 +72,10 @@ bool exchange_each(Side& side) {
 ///   terms(), most()                the model, and how many terms it may have
 ///   passing_beside(terms)          the best term that passes its test, if any
 ///   best_beside(terms)             the best term at all, if any
-///   log_p(i), passes(log_p)        test of a term beside all others
+///   log_p(i), passes(log_p)        test of a term after all others
 ///   criterion(terms)               what models are compared by: Fitted::criterion
 ///   may_leave(i), exchange()       whether a term may be exchanged; exchange_each and what else
-///   taken(), dropped()             told of a change, as of noise that is estimated beside terms
+///   taken(), dropped()             called at a change, as of noise that is estimated after terms
 template <class Side>
 void search_stepwise(Side& side) {
   take_what_passes(side);

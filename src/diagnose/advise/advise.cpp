@@ -17,9 +17,9 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr double most_off_centre_mm = 2.0;  // that a part is clamped for a question
-constexpr double shape_step = 0.06;         // what a rival may give way in its shape
+constexpr double shape_step = 0.06;         // how far a rival cause may bend in its shape
 
-/// Whether a member of the class is one with the named cause to the first order: delay and lag.
+/// Whether a rival cause is one with the named cause to the first order: delay and lag.
 bool are_twins(const AmbiguousFinding& question, std::size_t member) {
   const Hypothesis& named = question.found.members.front().hypothesis;
   return named.effect->second_order_twin == question.found.members[member].hypothesis.id();
@@ -31,8 +31,8 @@ std::optional<std::size_t> twin_of(const AmbiguousFinding& question) {
   return std::nullopt;
 }
 
-/// What a set of readings would tell: for every question the distances of its rivals and the
-/// probability of the right name, for every hidden effect the power of finding it.
+/// What a set of readings would tell: for every question the distances of its rival causes and the
+/// probability of the right name, for every hidden effect the power to find it.
 struct Outlook {
   std::vector<std::vector<double>> distances;
   std::vector<double> told;
@@ -70,7 +70,7 @@ class Predictor {
   }
 
   /// d of delay and lag, one of them named by the question: what the base, the other terms and
-  /// another size of the rival leave of the difference of the two, second order and all.
+  /// another size of the rival cause leave of the difference of the two, second order and all.
   double timing_distance(std::size_t question, const CandidateMeasurement& plan) const {
     const AmbiguousFinding& q = questions_[question];
     const LinearisationPoint point = point_of(plan);
@@ -110,7 +110,7 @@ class Predictor {
           taken.insert(taken.end(), places[next].begin(), places[next].end());
         const Projection p = project(gram, taken);
         const double d2 = left_of(p, places[q.term], sizes_[q.term]);
-        // More readings never tell less, also where a rival was given no way to bend before.
+        // More readings never tell less, also if a rival cause had no way to bend before.
         const double apart = are_twins(q, r) ? timing_distance(k, plan) : std::sqrt(d2) / sigma_mm_;
         distances.push_back(std::max(q.found.rivals[r - 1].distance, apart));
       }
@@ -140,7 +140,7 @@ class Predictor {
   const std::vector<Unobservable>& hidden_;
   double sigma_mm_;
   std::vector<Hypothesis> list_;
-  std::vector<std::size_t> ways_;  ///< of each rival: itself and its neighbours in shape
+  std::vector<std::size_t> ways_;  ///< of each rival cause: itself and its neighbours in shape
   std::vector<Eigen::VectorXd> sizes_;
 };
 

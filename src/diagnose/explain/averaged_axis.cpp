@@ -22,7 +22,7 @@ constexpr double discrepancy = 0.1;
 constexpr double present = 0.2;         // how often a stream has an effect, before it is looked at
 constexpr double moved_in_all = 0.9;    // how often a part that moved did so in all ways
 constexpr double told = 1e-3;           // probability below which a model is not listed
-constexpr double nothing = 1e-2;        // of u: a shift below is none
+constexpr double nothing = 1e-2;        // of u: a smaller shift does not count
 constexpr std::size_t most_forms = 48;  // shapes of a local form that are averaged over
 constexpr double finer[] = {0.06, 0.02, 0.007};  // steps about the one that was found
 
@@ -50,8 +50,8 @@ void add_rest_of_steps(const Problem& problem, const std::vector<Hypothesis>& te
 }
 
 /// Effects that might be there and were not found, seen or not, but for those that the cut meets as
-/// the probe did. Harmonics of free order are left out: they are no neighbours of the axis, which
-/// is of order one. What is stated of an effect holds whatever a finding may be.
+/// the probe did. Harmonics of free order do not count: they are not neighbours of the axis, which
+/// is of order one. What is stated of an effect holds whatever the cause is.
 std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypothesis>& terms,
                                   const std::vector<AmbiguousFinding>& findings) {
   std::vector<Hypothesis> list = preset_causes(problem);
@@ -70,7 +70,7 @@ std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypo
   return list;
 }
 
-/// Of all that no cause explains, mm.
+/// The residual that no cause explains, mm.
 double unexplained_rms(const Joint& joint) {
   double sum = 0.0;
   for (std::size_t t = 0; t < joint.terms.size(); ++t) {
@@ -111,12 +111,13 @@ class Averaging {
     std::size_t next = terms_;
     for (const AmbiguousFinding& finding : findings_) of_finding(finding, next, out);
     for (const LocalShapes& shapes : local_) of_local_form(shapes, next, out);
-    if (problem_.point.base.face) {  // of a face the named model stands, with what rivals would do
+    if (problem_.point.base
+            .face) {  // for a face the named model stays, with what rival causes would do
       out.within = wide_.base_covariance();
       out.shift.setZero();
     } else {
       of_not_found(next, out);
-      if (terms_ == 0) {  // nothing was found: the ideal fit stands
+      if (terms_ == 0) {  // nothing was found: the ideal fit stays
         out.between += out.shift * out.shift.transpose();
         out.shift.setZero();
       }
@@ -192,7 +193,7 @@ class Averaging {
     return (without.inverse * right).topRows(n_);
   }
 
-  /// The same beside the named model as the mixture over its sizes, of a probability in all.
+  /// The same with the named model as the mixture over its sizes, of a probability in all.
   void add_sizes(std::size_t place, const Projection& beside, double probability,
                  std::vector<Alternative>& list) const {
     const Eigen::MatrixXd per_unit = base_per_unit(place, named_);

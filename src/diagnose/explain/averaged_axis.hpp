@@ -23,7 +23,7 @@ struct AveragedAxis {
   Eigen::VectorXd shift;    ///< of the base, against that of the named model by least squares
   Eigen::MatrixXd within;   ///< covariance of the base by the noise, sizes being plausible
   Eigen::MatrixXd between;  ///< what the causes that the data cannot tell add
-  /// What each of them adds: an effect that was not found, or what else a finding may be.
+  /// What each of them adds: an effect that was not found, or what else a named cause may be.
   struct Source {
     const Effect* effect = nullptr;
     std::string instead_of;

@@ -5,10 +5,10 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Scales what the causes add so that 2 u is the 95.45 % interval of the mixture about its mean, in
-/// the worse direction of the axis at the end where that asks for more (Eq. 95c): few of the causes
-/// that are not seen are there, and few of those are large, so that 2 standard deviations hold more
-/// or less.
+/// Scales what the causes add so that 2 u is the 95.45 % interval of the mixture about its mean
+/// (Eq. 95c). It is that in the worse direction of the axis at the worse end. Few of the causes
+/// that are not seen are present, and few of those are large, so that 2 standard deviations hold
+/// more or less.
 void set_interval(const LinearisationPoint& point, AveragedAxis& average);
 
 /// What u of the axis comes from, the largest share first.

@@ -11,8 +11,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-/// Whether the named form, about a place on the axis that was fitted, is a special case of a
-/// rival's: lobes that grow along the part.
+/// Whether the named form, about a place on the axis that was fitted, is a special case of a rival
+/// cause's: lobes that grow along the part.
 bool is_case_of(const Hypothesis& named, const Hypothesis& rival) {
   const auto* lever = named.effect ? std::get_if<Harmonic>(&named.effect->term) : nullptr;
   const auto* lobes = std::get_if<Harmonic>(&rival.effect->term);
@@ -20,8 +20,8 @@ bool is_case_of(const Hypothesis& named, const Hypothesis& rival) {
          lobes->envelope == Harmonic::Envelope::growing && rival.shape.order == named.shape.order;
 }
 
-/// Of a rival that might have been just the named form: their sizes tell which of both it is, and
-/// not that the one formula has fewer parameters.
+/// For a rival cause that might have been just the named form: their sizes tell which of both it
+/// is, not that the one formula has fewer parameters.
 double criterion_as(const Hypothesis& rival, const Columns& its, const Hypothesis& named,
                     const Columns& own, const Projection& beside, std::size_t count) {
   const auto norm2 = [&](const Columns& of) {
@@ -75,7 +75,7 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
       out.members.push_back(c);
     }
   }
-  if (out.members.empty()) {  // none of its own: it stands as it is
+  if (out.members.empty()) {  // none of its own: it stays as it is
     const Score best = score(beside, own);
     const Weighed weighed = weigh(named, beside, own, joint.equations.count());
     out.members.push_back(

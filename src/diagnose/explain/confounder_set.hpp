@@ -8,7 +8,7 @@
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {
-/// A finding with everything that explains it as well: the named cause first (Eq. 87).
+/// A cause with everything that fits the readings equally well: the named cause first (Eq. 87).
 struct ConfounderSet {
   std::vector<Candidate> members;
   std::vector<Rival> rivals;  ///< one per member but the first
@@ -28,10 +28,10 @@ struct AmbiguousFinding {
   ConfounderSet found;
 };
 
-/// The class of a term of the model that was searched. A rival belongs to it when its best fit is
-/// nearer to the named prediction than d with Φ(d/2) = 0.95, or when the data's own likelihood
-/// ratio does not tell (Eqs. 87–93). May be asked by several threads.
-/// @param proposer prepared for the noise of the model
+/// The class of a term of the model that was searched. A rival cause belongs to it if its best fit
+/// is nearer to the named prediction than d with Φ(d/2) = 0.95. So it does if the data's own
+/// likelihood ratio does not tell (Eqs. 87–93). May be asked by several threads. @param proposer
+/// prepared for the noise of the model
 ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::size_t term,
                           int threads);
 

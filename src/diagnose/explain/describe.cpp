@@ -32,7 +32,7 @@ double scanned_value(const Hypothesis& h) {
   return refined ? h.shape.*refined->parameter : h.shape.time_constant_s;
 }
 
-/// Of the term's coefficients, in the joint solution.
+/// The covariance of the term's coefficients, in the joint solution.
 Eigen::MatrixXd inverse_of(const Joint& joint, std::size_t term) {
   auto at = static_cast<Eigen::Index>(joint.equations.base().size());
   for (std::size_t t = 0; t < term; ++t) at += static_cast<Eigen::Index>(joint.places[t].size());
@@ -40,7 +40,7 @@ Eigen::MatrixXd inverse_of(const Joint& joint, std::size_t term) {
   return joint.solution.inverse.block(at, at, count, count);
 }
 
-/// Whether base and other terms leave all columns of a term: else its sizes share what is left.
+/// Whether base and other terms leave all columns of a term: else its sizes share the rest.
 bool is_determined(const Joint& joint, std::size_t term) {
   return score(project(joint.equations.total(), joint.besides(term)), joint.places[term]).rank ==
          joint.places[term].size();

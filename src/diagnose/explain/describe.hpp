@@ -23,11 +23,11 @@ Eigen::MatrixXd covariance_of(const Joint& joint, std::size_t term);
 std::vector<FitParameter> parameters_of(const Problem& problem, const Model& model,
                                         const Joint& joint, std::size_t term);
 
-/// A term that is no catalogued cause.
+/// A term that is not a catalogued cause.
 Unexplained unexplained_of(const Joint& joint, std::size_t term);
 
-/// The other orders that are one column with it, and the readings a revolution that tell them
-/// apart: "10 or 14: with 12 readings a revolution orders n and k 12 ± n are one column; take 21
+/// The other orders that are one column with it, and the readings per revolution that tell them
+/// apart: "10 or 14: with 12 readings per revolution orders n and k 12 ± n are one column; take 21
 /// …". Empty: none. Eq. 76.
 std::string alias_of(const Hypothesis& hypothesis, const Resolution& resolution);
 

@@ -50,8 +50,8 @@ constexpr double ordinary = 3.0, possible = 8.0;  // spreads of the logarithm of
 
 /// What no ordinary size would do: where its columns hold, the data tell such a cause, and beyond
 /// they bend by its size over the radius, so that a good part of the cause is enough.
-/// A cause that has a line or a shape to bend is improbable as a chance among many, not by its
-/// size.
+/// A cause that has a line or a shape to bend is improbable as one of many that were tried, not by
+/// its size.
 void add_improbable(const Problem& problem, const Joint& joint, const ConfounderSet& found,
                     std::size_t term, std::vector<AxisShare>& list) {
   for (const auto& [cause, probability, told] : found.dropped) {
@@ -78,7 +78,7 @@ bool has_class(const Hypothesis& term, const Problem& problem) {
   return term.effect && !is_rounding(term, problem.point, problem.rounding_mm);
 }
 
-/// Of all terms, on threads; empty where a term has none.
+/// For all terms, on threads; empty where a term has none.
 std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const Model& searched,
                                       const Problem& problem) {
   std::vector<std::size_t> terms;

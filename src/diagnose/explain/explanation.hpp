@@ -13,10 +13,10 @@ namespace trueaxis::diagnose_detail {
 /// What the terms of a model are, how large they are, and what they do to the axis.
 struct Explanation {
   std::vector<Finding> findings;            ///< in the order of the model
-  std::vector<AmbiguousFinding> ambiguous;  ///< one a finding
+  std::vector<AmbiguousFinding> ambiguous;  ///< one per cause
   std::vector<Unexplained> unexplained;     ///< terms that no catalogued cause explains
-  /// What causes would do to the axis that explain a finding nearly as well and are dropped, at a
-  /// size that is improbable and possible all the same.
+  /// What dropped causes would do to the axis that fit the readings nearly as well, at a size that
+  /// is improbable but possible.
   std::vector<AxisShare> improbable;
 };
 

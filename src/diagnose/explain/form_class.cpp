@@ -46,7 +46,7 @@ ProbeStream sections_of(const Problem& problem, int angles) {
   return out;
 }
 
-/// Of lobes both phases, of which the angles at hand may show one.
+/// Both phases of lobes, of which the angles at hand may show one.
 std::vector<Hypothesis> whole(std::vector<Hypothesis> terms) {
   for (Hypothesis& h : terms)
     if (is_lobes(h) && h.free.size() == 1) h.free = {0, 1};
@@ -54,7 +54,7 @@ std::vector<Hypothesis> whole(std::vector<Hypothesis> terms) {
 }
 
 /// d² of what the terms do from base and the best of other terms (Eq. 87). Without terms there is
-/// nothing to be told.
+/// nothing to tell apart.
 double distance2(const LinearisationPoint& point, const Joint& of,
                  const std::vector<Hypothesis>& other) {
   if (of.terms.empty()) return std::numeric_limits<double>::infinity();

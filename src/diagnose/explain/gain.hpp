@@ -9,8 +9,8 @@
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {
-/// Before and after: the surface alone and with all terms, block by block held out (Eqs. 101, 102).
-/// @param average the axis that is stated
+/// Before and after: the surface alone and with all terms, cross-validated block by block (Eqs.
+/// 101, 102). @param average the axis that is stated
 Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis& average,
                   double noise_floor_mm);
 

@@ -48,7 +48,7 @@ std::string percent_left(double share) {
   return share < least ? "less than 0.01 %" : fmt::format("{:.2g} %", 100.0 * share);
 }
 
-/// An effect at its typical shape; and in a form that is told of apart.
+/// An effect at its typical shape; and in a form with limits of its own.
 Typical typical_of(const Effect& effect, const SearchForm& form, const LinearisationPoint& point) {
   TermShape shape = typical_shape(effect, point);
   shape.range_mm = std::max(typical_range_mm, point.range_x_mm);
@@ -59,7 +59,7 @@ Typical typical_of(const Effect& effect, const SearchForm& form, const Linearisa
           std::string(form.told)};
 }
 
-/// The share of columns that is left beside others, RMS.
+/// The share of columns that is left after others, RMS.
 double left_of(const Joint& joint, const Columns& columns, const Columns& beside) {
   const Projection projection = project(joint.equations.total(), beside);
   double kept = 0.0, whole = 0.0;

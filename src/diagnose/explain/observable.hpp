@@ -26,7 +26,8 @@ std::vector<Typical> typical_effects(const Problem& problem);
 /// threshold of a family of tests (Eq. 97).
 double detection_power(double lambda, std::size_t columns, const Family& family, double level);
 
-/// λ of a typical size beside columns taken out of a Gram matrix: averaged over its phase (Eq. 96).
+/// λ of a typical size after columns that were taken out of a Gram matrix: averaged over its phase
+/// (Eq. 96).
 double typical_lambda(const Projection& projection, const Columns& columns, double size,
                       double sigma_mm);
 
@@ -37,7 +38,7 @@ struct Unobservable {
   double axis_bias_mm = 0.0;  ///< at the typical size
   double power = 0.0;
 };
-/// Eq. 98. One that is in the class of a finding is said there; of one that a finding takes in,
+/// Eq. 98. An effect in the class of a cause is listed there; if a cause absorbs one, this says
 /// which.
 std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model,
                                                const std::vector<AmbiguousFinding>& findings,

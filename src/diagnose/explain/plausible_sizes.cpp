@@ -15,7 +15,7 @@ namespace {
 // The crudest measured tube has ten times the largest ovality of the catalogue.
 constexpr double beyond = 20.0;
 
-/// The largest typical amplitude, mm; 0: its size is no length.
+/// The largest typical amplitude, mm; 0: its size is not a length.
 double largest_mm(const Effect& effect) {
   double largest = 0.0;
   for (const LinearParameter& one : linear_parameters(effect.term, {})) {

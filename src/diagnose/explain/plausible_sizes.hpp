@@ -7,8 +7,8 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A finding that is more than 20 times as large as the largest size of every cause in its class;
-/// empty: there is none. A cause whose size is no length is taken to be possible, and so is a slip.
+/// A cause that is more than 20 times as large as the largest size of every cause in its class;
+/// empty: there is none. A cause whose size is not a length counts as possible, and so does a slip.
 std::string implausible_size(const Diagnosis& diagnosis);
 
 }  // namespace trueaxis::diagnose_detail

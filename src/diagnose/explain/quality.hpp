@@ -13,7 +13,7 @@
 namespace trueaxis::diagnose_detail {
 /// σ of a reading from each source that the data have, the best one chosen; gaps and interruptions.
 /// Eq. 67.
-/// @param residual_mm readings minus the extended model
+/// @param residual_mm readings minus surface and causes
 NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
                          const std::vector<double>& residual_mm, std::vector<Rejected> masked,
                          const std::optional<double>& stated_mm);
@@ -24,7 +24,7 @@ std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& jo
                                         const NoiseReport& noise);
 
 /// That the second harmonic of X is that of an off-centre circle, e²/(4R), and how much ovality is
-/// left beside it; nothing where the one is below the other's uncertainty, or an effect of two
+/// left after it; nothing if the one is below the other's uncertainty, or an effect of two
 /// undulations is in the model (Eq. 12).
 std::vector<std::string> off_centre_remark(const Problem& problem, const Model& model);
 

@@ -17,8 +17,8 @@ Effect as_stated(Effect effect, const Influence& influence) {
 
 namespace {
 
-/// What a finding says of a statement, beyond its value: of its own cause, or of its twin where
-/// that takes back what is stated. A twin that adds to it is another cause.
+/// What a cause says of its own statement, beyond its value, or of its twin's if that cancels what
+/// is stated. A twin that adds to it is another cause.
 bool contradicts(const Finding& finding, const Effect& stated) {
   if (finding.effect() == stated.id) return true;
   return finding.effect() == stated.second_order_twin && !finding.term.effect->stated &&

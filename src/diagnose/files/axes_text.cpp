@@ -63,7 +63,7 @@ std::string axes_lines(const Diagnosis& d) {
 }  // namespace
 
 std::vector<AxisShare> telling_shares(const Diagnosis& d) {
-  if (d.extended.surface == SurfaceKind::plane) return {};  // the named model stands
+  if (d.extended.surface == SurfaceKind::plane) return {};  // the named model stays
   const double u = u_of(d.extended);
   std::vector<AxisShare> list;
   std::ranges::copy_if(d.shares, std::back_inserter(list), [&](const AxisShare& share) {

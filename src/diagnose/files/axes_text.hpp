@@ -7,8 +7,8 @@
 
 namespace trueaxis {
 
-/// Under `heading` the axis that is stated beside those of the named model and of the ideal fit,
-/// and what moved it from there or widened its U; empty where nothing was fitted, and of a face.
+/// Under `heading` the final axis with those of the named model and of the ideal fit, and what
+/// moved it from there or widened its U; empty if nothing was fitted, and for a face.
 std::string axes_text(const Diagnosis& diagnosis, const std::string& heading);
 
 /// "part.roundness instead of probe.height (probability 0.31) would move it by 4.2 ± 0.8 µm".

@@ -44,7 +44,7 @@ Json whole_finding(const Finding& finding) {
   return json;
 }
 
-/// What follows from each cause that a finding may have.
+/// What follows from each cause of a class.
 Json consequences_object(const Diagnosis& d) {
   Json json = Json::object();
   for (const Finding& finding : d.findings)
@@ -208,7 +208,7 @@ double neighbour_correlation(const std::vector<double>& autoregression) {
     lag_1 += next * response.back();
     lag_0 += next * next;
     response.push_back(next);
-    last = 0.0;  // of a whole order's span: one of them may be 0 by chance
+    last = 0.0;  // of a whole order's span: one of them may happen to be 0
     for (std::size_t j = 0; j < autoregression.size() && j < response.size(); ++j) {
       last += response[k - j] * response[k - j];
     }

@@ -12,9 +12,8 @@
 namespace trueaxis {
 
 /// Schema trueaxis.diagnosis/2: lengths in mm, angles in degrees, times in s, each with its unit; a
-/// number that is not there is null beside the reason. `findings[].term` and `unexplained[].term`
-/// hold
-/// the extended model as numbers, over u = (z − z_mid)/z_half of `u_frame`.
+/// number that is not there is null next to the reason. `findings[].term` and `unexplained[].term`
+/// hold what was found as numbers, over u = (z − z_mid)/z_half of `u_frame`.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
 inline constexpr const char* diagnosis_schema = "trueaxis.diagnosis/2";
@@ -22,10 +21,10 @@ inline constexpr const char* diagnosis_schema = "trueaxis.diagnosis/2";
 /// The diagnosis as an object.
 Json diagnosis_object(const Diagnosis& diagnosis);
 
-/// Verdict and findings of a diagnosis, for a result that names the file of the whole one.
+/// Verdict and causes of a diagnosis, for a result that names the file of the whole one.
 Json diagnosis_summary(const Diagnosis& diagnosis);
 
-/// A finding without its term and rivals, for results that hold a summary.
+/// A cause without its term and rival causes, for results that hold a summary.
 Json finding_summary(const Finding& finding);
 
 /// A model that the axis is averaged over.
@@ -37,7 +36,7 @@ Json unexplained_summary(const Unexplained& unexplained);
 /// Like to_json, and never without a reason where a number is missing.
 Json estimate_object(const Estimate& estimate);
 
-/// σ of one reading, where it comes from, and what was left out. `autocorrelation` is that of
+/// σ of one reading, where it comes from, and what was excluded. `autocorrelation` is that of
 /// neighbouring readings, which follows from the autoregression.
 Json noise_object(const NoiseReport& noise);
 
@@ -45,23 +44,22 @@ Json noise_object(const NoiseReport& noise);
 /// stationary.
 double neighbour_correlation(const std::vector<double>& autoregression);
 
-/// A fitted term: of an effect its formula, slot and the shape parameters that it reads; of a
-/// pattern its numbers; then the linear parameters by name and their covariance.
+/// A fitted term: the formula, slot and shape parameters of an effect, or the numbers of a pattern;
+/// then the linear parameters by name and their covariance.
 Json term_object(const TermValue& term);
 
 /// Back again, without the covariance. @throws InputError naming "diagnosis" for what the catalogue
-/// has not, Json::exception for a malformed term.
+/// does not have, Json::exception for a malformed term.
 TermValue effect_term_from(const std::string& id, const Json& json,
                            std::span<const Effect> own_effects = {});
 TermValue pattern_term_from(const Json& json);
 
 /// What the virtual lathe and a verdict need of a diagnosis: its verdict, both fits as
-/// `fit_from_object` has them, u's frame, findings and patterns with their classes, shares of the
-/// axis, what cannot be seen, the measurements; noise and masked rows.
-/// @param path of the text, for messages
-/// @param own_effects that it was made with; they outlive the result
-/// @throws InputError when the text is no trueaxis.diagnosis/2, or names an effect that neither the
-/// catalogue nor `own_effects` has.
+/// `fit_from_object` has them, u's frame, causes and patterns with their classes. Also shares of
+/// the axis, what cannot be seen, the measurements, noise and excluded rows. @param path of the
+/// text, for messages @param own_effects that it was made with; they outlive the result @throws
+/// InputError if the schema of the text is not trueaxis.diagnosis/2, or it names an effect that
+/// neither the catalogue nor `own_effects` has.
 Diagnosis diagnosis_from_json(std::string_view text, const std::string& path,
                               std::span<const Effect> own_effects = {});
 

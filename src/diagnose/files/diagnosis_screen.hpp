@@ -9,13 +9,13 @@ namespace trueaxis {
 
 /// A diagnosis in some ten lines for a person: verdict, what was seen and its causes, the axis,
 /// what to do next. Lines are not broken (the command does). diagnosis_text() has the rest.
-/// @param form lines of the form: they stand before the axis, and last where a tilt is all of it
+/// @param form lines of the form: before the axis, or last if a tilt is all of it
 std::string diagnosis_screen(const Diagnosis& diagnosis, const std::string& form = {});
 
 /// RMS of the residuals that screen and report give: those of the final model.
 double rms_shown_mm(const Diagnosis& diagnosis);
 
-/// The part of it about what was seen, at most `most` findings.
+/// The part of it about what was seen, at most `most` causes.
 std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);
 
 /// "unseen 2.2 ms of probe latency … would move the axis by U, and …": what no size of is seen in

@@ -68,7 +68,7 @@ std::string origin(const Diagnosis& d) {
   return text;
 }
 
-/// What a slip does to the meaning of the axis; empty for any other finding.
+/// What a slip does to the meaning of the axis; empty for any other cause.
 std::string axis_note(const Finding& finding) {
   return is_step(finding.term.effect->term) ? "that of the part after the slip" : "";
 }

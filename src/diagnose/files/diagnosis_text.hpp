@@ -13,11 +13,11 @@ namespace trueaxis {
 /// 0.38 …".
 std::string diagnosis_line(const Diagnosis& diagnosis);
 
-/// The diagnosis for a person at a terminal, 100 columns wide: verdict, findings by axis_bias, what
+/// The diagnosis for a person at a terminal, 100 columns wide: verdict, causes by axis_bias, what
 /// is unexplained, what cannot be seen, noise, checks, next measurement. Small lengths in µm.
 std::string diagnosis_text(const Diagnosis& diagnosis);
 
-/// The findings alone, a line or two each, for a result that has much else to say.
+/// The causes alone, a line or two each, for a result that has much else to say.
 std::string findings_text(const Diagnosis& diagnosis);
 
 /// The next measurement and the table of all plans.

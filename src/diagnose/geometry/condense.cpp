@@ -129,7 +129,8 @@ class Condensing {
 
  private:
   static double middle(std::size_t k) { return static_cast<double>(k) + 0.5; }
-  /// Of the sectors of a slab, in sectors: no fast line is then a slow one in all of them.
+  /// The shifts of the sectors of a slab, in sectors: no fast line is then a slow one in all of
+  /// them.
   static double shift(std::size_t slab) { return golden_share(slab); }
   static double count_less(std::size_t slabs) { return static_cast<double>(slabs) - 1e-9; }
   static double between(std::span<const double> x, std::size_t first, std::size_t last,

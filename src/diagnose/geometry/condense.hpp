@@ -35,9 +35,9 @@ struct Means {
 /// Whether a search over means is worth its while: from 40 000 readings on.
 bool is_condensed(const LinearisationPoint& point);
 
-/// Means over sectors of a turn, 40 of them or one a reading, and over as many turns as leave 500
-/// of them, with the argument of the middle turn (Eq. 77).
-/// @param known terms that the means hold as they are, however fast, with their linear parameters
+/// Means over sectors of a turn, 40 of them or one per reading, and over as many turns as leave 500
+/// of them. They have the argument of the middle turn (Eq. 77). @param known terms that the means
+/// hold as they are, however fast, with their linear parameters
 Means condense(const LinearisationPoint& point, const ObservationMask& mask,
                std::span<const double> deviation_mm, std::span<const Hypothesis> known,
                std::span<const double> linear, bool sections, int threads = 1);

@@ -7,7 +7,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Room behind a column that a kernel works on: vectors of the last readings reach into it.
+/// Room after a column that a kernel works on: vectors of the last readings reach into it.
 inline constexpr std::size_t kernel_room = 8;
 
 /// Probe lines at height 0, and where they meet a surface: as `intersect` says, all at once.

@@ -14,7 +14,7 @@ namespace trueaxis::diagnose_detail {
 /// A term that may be taken: how many of its kind were tried is what its choice costs.
 struct Hypothesis : TermValue {
   double tests = 1.0;
-  /// Of a pattern the range of its typical sizes, mm; 0: none is known.
+  /// The range of a pattern's typical sizes, mm; 0: none is known.
   double smallest_mm = 0.0, largest_mm = 0.0;
 };
 

@@ -42,15 +42,16 @@ struct BaseKind {
   std::size_t columns() const { return axes * per_axis() + shared(); }
 };
 
-/// What a point is as a whole; mm. Of a face X below is the Z that is read, and Z the X it is read
-/// at.
+/// What a point is as a whole; mm. For a face, X below is the Z that is read, and Z the X it is
+/// read at.
 struct LinearisationFacts {
   BaseKind base;
   double z_mid_mm = 0.0, z_half_mm = 1.0, s_ref_mm = 0.0;
   double tan_half_angle = 0.0;
   double reference_x_mm = 0.0, range_x_mm = 1.0;  ///< middle of what is sensed, and how far it goes
   Extent x_mm{0.0, 0.0};
-  Extent outward_mm{0.0, 0.0};  ///< of what is sensed as the gauge sees it, turned round behind
+  Extent outward_mm{
+      0.0, 0.0};  ///< of what is sensed as the gauge sees it, turned round on the rear side
   bool bore = false;
   bool has_time = false, has_position = true, reindexed = false, jogged = false, shifted = false,
        two_sided = false, reclamped = false;
@@ -100,13 +101,13 @@ struct LinearisationPoint : LinearisationFacts {
       for_each_part(work, k * rows, std::min((k + 1) * rows, size()));
     });
   }
-  /// Of C, Z or time; null: it is made part by part.
+  /// For C, Z or time; null: it is made part by part.
   const SharedColumn* at_hand(PointColumn column) const;
   double at(PointColumn column, std::size_t reading) const;
   Extent range(PointColumn column) const;
   std::vector<double> column(PointColumn which, int threads = 1) const;  ///< all of it
 
-  /// What terms are told of a part; its `rear` is that of the first reading: ask set-up by set-up.
+  /// What terms get of a part; its `rear` is that of the first reading: ask set-up by set-up.
   TermContext context(const PointPart& part) const;
   /// ∂X/∂(base parameter): x, y, slopes of each axis at mid length; radius or offset; tan of the
   /// half angle. Rigid motions of the part: exact to first order (Eqs. 55–57). Of a face slopes of
@@ -121,7 +122,7 @@ struct LinearisationPoint : LinearisationFacts {
 ColumnSource source_of(const LinearisationPoint& point, PointColumn column);
 
 /// Whether the probe line of every reading meets the surface as it is clamped then: beyond a cone's
-/// apex, or beside a thin part, none does. A face is met everywhere.
+/// apex, or next to a thin part, none does. A face is met everywhere.
 bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings);
 
 /// @param stream columns C, Z, t, set-up, which outlive the point; its readings are not used.
@@ -134,7 +135,7 @@ LinearisationPoint linearise_at(ProbeStream&& stream, const std::vector<Clamping
 /// A fit that ended short of a minimum, or a profile of one's own, has no point to diagnose.
 bool is_diagnosable(const FitResult& fit);
 
-/// How the part stands in every set-up of a fit, the ball's centre on its surface.
+/// The part as it is in every set-up of a fit, the ball's centre on its surface.
 std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm);
 
 /// What the base of a model of a surface is.

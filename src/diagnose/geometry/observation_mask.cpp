@@ -11,7 +11,8 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t blocks_wanted = 30;  // Eq. 82: few blocks lose slow effects
-constexpr double few_turns = 6.0;          // fewer revolutions than this are no blocks to hold out
+constexpr double few_turns =
+    6.0;  // fewer revolutions than this cannot be blocks of a cross-validation
 constexpr unsigned char longest_run = 8;
 
 /// Where Z stands still for a section and then steps: the first reading of every section. A helix

@@ -9,7 +9,7 @@
 #include "diagnose/geometry/linearisation_point.hpp"
 
 namespace trueaxis::diagnose_detail {
-/// Which readings count, and in which blocks they are held out.
+/// Which readings count, and their blocks for cross-validation.
 struct ObservationMask {
   std::vector<char> used;          ///< 0: masked
   std::vector<unsigned char> run;  ///< used readings just before, in unbroken sampling; at most 8
@@ -28,7 +28,7 @@ ObservationMask make_observation_mask(const LinearisationPoint& point);
 
 /// What the sampling lets be seen.
 struct Resolution {
-  double per_turn = 0.0;     ///< readings a revolution of the slowest turning pass
+  double per_turn = 0.0;     ///< readings per revolution of the slowest turning pass
   bool whole = false;        ///< a whole number of them: orders n and M − n are one column
   int harmonics = 0;         ///< highest order of the Fourier-Legendre basis
   int degrees = 0;           ///< highest Legendre degree along s

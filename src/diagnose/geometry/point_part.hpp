@@ -10,7 +10,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A column that is kept here, or a view of somebody else's who outlives it; copies share it.
+/// A column that is kept here, or a view of another one that outlives it; copies share it.
 class SharedColumn {
  public:
   SharedColumn() = default;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double rounding = 1e-12;  // of a variance: what is less remains of a difference
 
-/// What a fit takes of the stream without masked readings, less the contribution of the terms.
+/// What a fit uses of the stream without excluded readings, less the contribution of the terms.
 ProbeStream cleaned(const ProbeStream& stream, const ObservationMask& mask,
                     std::vector<double> effect_mm) {
   ProbeStream out = stream;

@@ -10,7 +10,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// The surface fitted to the readings less what the terms contribute, masked readings left out.
+/// The surface fitted to the readings less what the terms contribute, without excluded readings.
 struct CleanedFit {
   FitResult fit;
   /// Its covariances without the influences (GUM type B) that the options state.
@@ -19,8 +19,8 @@ struct CleanedFit {
 };
 
 /// @param effect_mm contribution of the terms, one a reading
-/// @param masked readings that do not count, by row, and why
-/// @param ideal the fit of the stream itself: taken where nothing is taken off and nothing masked
+/// @param masked rows that do not count, and why @param ideal the fit of the stream itself: used if
+/// nothing is subtracted and nothing excluded
 CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
                        std::vector<double> effect_mm, const ObservationMask& mask,
                        const std::vector<Rejected>& masked, const FitResult* ideal = nullptr);

@@ -21,7 +21,7 @@ struct KnownEffect {
 using AxisEnds = std::array<double, 4>;
 AxisEnds ends_of(const FitResult& fit);
 
-/// What an effect does to the axis of a lateral surface when it is left out, and when it is not.
+/// What an effect does to the axis of a lateral surface if it is not modelled, and if it is.
 struct EffectOnAxis {
   FitResult alone;  ///< the surface fitted as if there were no effect
   /// Of `alone` after one more linear step: the fit stops where a step is worth 1e-9 of its cost,
@@ -35,7 +35,7 @@ struct EffectOnAxis {
   double left = 0.0;           ///< share of the effect's columns that the surface leaves, RMS
   bool separable = false;      ///< whether the readings determine surface and effect together
   /// Standard uncertainty of the axis with the effect fitted over that without (white noise): what
-  /// the extended model costs.
+  /// the larger model costs.
   double u_ratio = 0.0;
   double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< of the terms: u = (s − z_mid)/z_half, ±1 at the ends
   double sensed_mid_mm = 0.0;  ///< middle of what the sensor meets of the surface, outwards

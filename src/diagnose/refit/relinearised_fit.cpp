@@ -83,7 +83,7 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
   if (moved_) add(effect_mm_, turned_mm_);
 }
 
-/// Of the readings, for the surface.
+/// What the terms add to the readings, for the surface.
 std::vector<double> RelinearisedFit::taken_off_mm() const {
   std::vector<double> out = effect_mm_;
   if (moved_) add(out, turned_mm_, -1.0);

@@ -11,8 +11,8 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Surface and terms fitted about the first extended model: about the part without the effects that
-/// were found, probed when the delay that was found says. At 240/min 2 ms are 3°, and 3° of an
+/// Surface and terms fitted about the first solution of both: about the part without the effects
+/// that were found, probed when the delay that was found says. At 240/min 2 ms are 3°, and 3° of an
 /// eccentricity of 0.2 mm are 0.3 µm beyond the first order.
 class RelinearisedFit {
  public:
@@ -24,7 +24,7 @@ class RelinearisedFit {
 
   const Problem& problem() const { return *problem_; }
   const Joint& joint() const { return *joint_; }
-  /// Of all terms, one a reading.
+  /// The sum of all terms, one per reading.
   const std::vector<double>& effect_mm() const { return effect_mm_; }
   /// Readings minus surface and terms, one a reading, mm.
   std::vector<double> residual_mm() const;

@@ -12,7 +12,7 @@ namespace trueaxis::diagnose_detail {
 struct Appended {
   std::size_t before = 0;         ///< columns that are there already
   std::size_t together = 0;       ///< and those that are fitted with them
-  std::vector<std::size_t> ends;  ///< of the groups behind these that are judged one by one
+  std::vector<std::size_t> ends;  ///< of the groups after these that are judged one by one
 
   std::size_t columns() const { return ends.empty() ? together : ends.back(); }
 };

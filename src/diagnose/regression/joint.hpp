@@ -33,7 +33,7 @@ struct Joint {
   }
 
   std::vector<Hypothesis> terms;
-  std::size_t fitted;  ///< how many of the terms are in the solution; the others are beside it
+  std::size_t fitted;  ///< how many of the terms are in the solution; the others are outside it
 };
 
 /// Largest distance over the probed length between two positions of the last axis, and its u; from

@@ -28,7 +28,7 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
                                     int threads = 1);
 
-/// Autoregressions of the noise beside base, basis and terms, whose products without the terms are
+/// Autoregressions of the noise after base, basis and terms, whose products without the terms are
 /// made once. By restricted maximum likelihood (the columns are integrated out, so that fitting
 /// them does not hide correlation); order 0, 1 or 2, each one only where the likelihood ratio
 /// passes 5 %. Few readings: none (Eqs. 64, 65).
@@ -57,7 +57,7 @@ class NoiseEstimator {
   LaggedGram gram_;
 };
 
-/// The same beside one list of terms.
+/// The same after one list of terms.
 Autoregression autoregression(const LinearisationPoint& point, const ObservationMask& mask,
                               std::span<const double> deviation_mm,
                               std::span<const Hypothesis> terms, int threads = 1);

@@ -24,7 +24,7 @@ inline bool is_of(const Effect& effect, const BaseKind& base) {
 }
 
 /// The effects that may be causes: those of the catalogue, each as `own` has it if it does, then
-/// what else is a user's own; no checks, and none that such a stream has not.
+/// what else is a user's own; no checks, and none that such a stream cannot have.
 inline std::vector<const Effect*> possible_causes(const BaseKind& base,
                                                   std::span<const Effect> own = {}) {
   std::vector<const Effect*> list;
@@ -78,16 +78,17 @@ class NormalEquations {
   std::vector<Columns> append(std::span<const Hypothesis> list) {
     return append(list, list.size());
   }
-  /// The same where only the first `together` are fitted: those behind them are judged one by one
-  /// beside these and what is there already, and no product of two of them is made (0). Cells of
-  /// one order of the Fourier-Legendre basis in a row count as one.
+  /// The same where only the first `together` are fitted: those after them are judged one by one
+  /// together with these and what is there already, and no product of two of them is made (0).
+  /// Cells of one order of the Fourier-Legendre basis in a row count as one.
   std::vector<Columns> append(std::span<const Hypothesis> list, std::size_t together);
 
   const Eigen::MatrixXd& total() const { return total_; }
-  /// Of the blocks that are held out. @throws ContractViolation where they were not asked for.
+  /// The sums of the blocks for cross-validation. @throws ContractViolation where they were not
+  /// asked for.
   const std::vector<Eigen::MatrixXd>& folds() const;
   std::size_t count() const { return count_; }  ///< rows that count
-  /// 2 ln of the determinant of the whitening: of its first readings of runs, 0 for all others.
+  /// 2 ln of the determinant of the whitening; only the first readings of runs count in it.
   double log_volume() const { return log_volume_; }
   const Columns& base() const { return base_; }
   const std::vector<double>& autoregression() const { return autoregression_; }
@@ -97,7 +98,7 @@ class NormalEquations {
   int threads() const { return threads_; }
   /// Drops all columns from `columns` on.
   void shrink(std::size_t columns);
-  /// Of few readings keeps the columns that are there, whitened, for all that is appended later;
+  /// With few readings, keeps the columns that are there, whitened, for all that is appended later;
   /// these are not dropped again.
   void keep_columns();
 

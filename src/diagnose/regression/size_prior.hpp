@@ -16,7 +16,7 @@ SizePrior size_prior(const Hypothesis& hypothesis);
 /// The same where what is stated of a size is right.
 SizePrior stated_prior(const Hypothesis& hypothesis);
 
-/// Data and prior of a hypothesis whose columns are `own`, beside what the projection took out.
+/// Data and prior of a hypothesis whose columns are `own`, after what the projection took out.
 /// @param count rows of the equations
 Weighed weigh(const Hypothesis& hypothesis, const Projection& projection, const Columns& own,
               std::size_t count);

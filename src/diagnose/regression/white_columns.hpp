@@ -17,7 +17,7 @@ class WhiteColumns {
   WhiteColumns(std::size_t columns, std::size_t history, std::size_t rows);
 
   std::span<double* const> raw() const { return raw_column_; }
-  /// y_i − Σ φ_j y_{i−j} of `rows` rows, the first of them behind `lead` others.
+  /// y_i − Σ φ_j y_{i−j} of `rows` rows, the first of them after `lead` others.
   void whiten(const std::vector<double>& phi, std::size_t lead, std::size_t rows);
   /// A row that is the first or second of its run.
   void begin_run(const std::vector<double>& phi, std::size_t lead, std::size_t row,

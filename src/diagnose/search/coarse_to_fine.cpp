@@ -18,14 +18,14 @@ constexpr double beside_the_top = 0.3;    // share of its gain from which a line
 constexpr double first_date_step = 2e-3;  // of the time: a mean's
 constexpr double steps_of_line[] = {1.0, 0.25, 0.05};  // of half a resolution cell
 
-/// Noise of all readings beside terms.
+/// Noise of all readings after terms.
 std::vector<double> noise_beside(const Problem& whole, const std::vector<Hypothesis>& terms) {
   std::vector<Hypothesis> all = small_fourier_legendre_basis(whole.point, whole.resolution);
   all.insert(all.end(), terms.begin(), terms.end());
   return autoregression(whole.point, whole.mask, whole.deviation_mm, all, whole.threads).phi;
 }
 
-/// The line at the frequency where it takes most beside the terms: the top of parabolas through
+/// The line at the frequency where it explains most after the terms: the top of parabolas through
 /// three frequencies, ever nearer.
 Hypothesis sharpened(const Problem& whole, const std::vector<double>& phi,
                      const std::vector<Hypothesis>& terms, const Peak& peak) {
@@ -46,9 +46,8 @@ Hypothesis sharpened(const Problem& whole, const std::vector<double>& phi,
   return line;
 }
 
-/// Adds to the terms every line that passes beside them in all readings and that means would
-/// weaken; and to the candidates, those lines and others like them.
-/// @returns the coefficients of the terms
+/// Adds to the terms every line that passes after them in all readings and that means would weaken;
+/// and to the candidates, those lines and others like them. @returns the coefficients of the terms
 std::vector<double> take_fast_lines(const Problem& whole, const Model& model, LineScanner& scanner,
                                     std::vector<Hypothesis>& terms,
                                     std::vector<Hypothesis>& candidates) {

@@ -10,8 +10,9 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A search over means where there are very many readings. Lines that means would weaken are looked
-/// for in all readings; where there are some, the means are made beside them, and searched again.
+/// A search over means where there are very many readings. The search looks for lines that means
+/// would weaken in all readings. If there are some, it makes the means after them, and searches
+/// again.
 class CoarseToFineSearch {
  public:
   explicit CoarseToFineSearch(const Problem& whole);

@@ -79,7 +79,7 @@ std::optional<Columns> in_basis(const Hypothesis& h, const std::vector<Hypothesi
   return out;
 }
 
-/// Causes that show from pass to pass, first what noise is taken for most easily.
+/// Causes that show from pass to pass, first what is most easily mistaken for noise.
 std::vector<Hypothesis> shown_between_passes(const LinearisationPoint& point,
                                              const Resolution& resolution) {
   std::vector<Hypothesis> list;
@@ -134,7 +134,7 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
     return true;
   };
   // A constant of every pass is what a walk of the noise looks like: it has its room before any
-  // harmonic, and its place behind them, which may already hold it.
+  // harmonic, and its place after them, which may already hold it.
   std::vector<Hypothesis> shown = shown_between_passes(point, resolution);
   std::erase_if(shown, [&](const Hypothesis& h) { return !fits(h); });
   const auto take = [&](Hypothesis h) {

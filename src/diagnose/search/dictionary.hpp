@@ -29,7 +29,7 @@ struct Dictionary {
   std::vector<Hypothesis> presets, basis;
   std::vector<Columns> preset_places, basis_places;
   std::size_t columns = 0;     ///< of the equations, without what a step appends for a while
-  double noise_freedom = 0.0;  ///< readings beyond the columns that the noise was estimated beside
+  double noise_freedom = 0.0;  ///< readings beyond the columns after which the noise was estimated
 };
 
 std::unique_ptr<Dictionary> make_dictionary(const Problem& problem, const std::vector<double>& phi);

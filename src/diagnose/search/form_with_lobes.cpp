@@ -31,7 +31,7 @@ Eigen::MatrixXd beyond(Eigen::MatrixXd& q, const Eigen::MatrixXd& columns) {
   return own;
 }
 
-/// A form of some size and what is taken beside it.
+/// A form of some size and the lobes with it.
 struct Fit {
   double criterion = 1e300, size = 0.0;
   std::vector<std::size_t> taken;  ///< of every order how many levels

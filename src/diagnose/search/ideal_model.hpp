@@ -9,7 +9,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A stream about the ideal surface that was fitted to it: what a diagnosis starts from.
+/// A stream about its ideal fit: what a diagnosis starts from.
 class IdealModel {
  public:
   /// Stream, options and fit outlive this. @param ideal is_diagnosable()

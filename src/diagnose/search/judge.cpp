@@ -9,9 +9,9 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-// The second harmonic of j jaws that is no surprise yet. A thin ring has ((j² − 1)/(4j² − 1))² of
-// the first, below 1/16 for any j. Chosen, not derived: five times that, for jaws that press over
-// a width and not all alike. Twice as much costs 32 ln² 2 = 15 in 2 ln L.
+// The second harmonic of j jaws that is not a surprise yet. A thin ring has ((j² − 1)/(4j² − 1))²
+// of the first, below 1/16 for any j. Chosen, not derived: five times that, for jaws that press
+// over a width and not all alike. Twice as much costs 32 ln² 2 = 15 in 2 ln L.
 constexpr double most_second = 0.3;
 constexpr double second_surprise = 32.0;
 

@@ -9,7 +9,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A hypothesis beside the terms of a model.
+/// A hypothesis in addition to the terms of a model.
 struct Candidate {
   Hypothesis hypothesis;
   double gain = 0.0;  ///< decrease of the residual sum of squares
@@ -18,7 +18,7 @@ struct Candidate {
   double criterion = 0.0;           ///< change of the extended BIC; negative is better
   bool possible = true;             ///< whether its sizes are
   bool extraordinary = false;       ///< whether they are beyond what is plausible
-  double rss = 0.0, freedom = 0.0;  ///< what is left without it
+  double rss = 0.0, freedom = 0.0;  ///< residual without it
 };
 
 /// Twice the log of the choice among a hypothesis's kind (Chen and Chen 2008), and what a second
@@ -28,12 +28,12 @@ double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficien
 /// ln of its own p-value.
 double log_p_of(const Candidate& candidate);
 
-/// Scores of hypotheses beside columns that are taken, from one projection.
+/// Scores of hypotheses after given columns, from one projection.
 std::vector<Candidate> judge(const NormalEquations& equations, const Solution& taken,
                              const std::vector<Columns>& places,
                              const std::vector<Hypothesis>& list);
 
-/// Judges lists of hypotheses beside the same terms.
+/// Judges lists of hypotheses after the same terms.
 class Judge {
  public:
   Judge(const Problem& problem, const std::vector<double>& phi,

@@ -27,7 +27,7 @@ std::size_t stride_of(double longest, double df) {
   return longest > 0.0 && stride < 1.0 ? 1 : static_cast<std::size_t>(std::min(stride, 1e6));
 }
 
-/// Adds to `fine` what stands at every `stride`th place, by the polynomial through six places.
+/// Adds to `fine` what is at every `stride`th place, by the polynomial through six places.
 void add_between(const std::vector<double>& coarse, std::size_t stride, std::vector<double>& fine) {
   if (stride == 1) {
     std::ranges::transform(fine, coarse, fine.begin(), std::plus<>());
@@ -49,7 +49,7 @@ void add_between(const std::vector<double>& coarse, std::size_t stride, std::vec
   }
 }
 
-/// Of the filter 1, −φ₁, −φ₂ … with itself, so many readings off.
+/// The correlation of the filter 1, −φ₁, −φ₂ … with itself, so many readings off.
 std::vector<double> products_of(const std::vector<double>& phi) {
   std::vector<double> factor{1.0}, out;
   for (const double p : phi) factor.push_back(-p);
@@ -131,9 +131,9 @@ std::vector<double> LineNorms::by_mean_step(const Scan& scan, double low, double
   return out;
 }
 
-/// The same where x goes by another step from reading to reading, as the part's own length and what
-/// is sensed do of a part that is tilted or off centre: |A|² is a sum of the cosines of one step
-/// and of two, summed over the readings.
+/// The same if x goes by another step from reading to reading, as the part's own length and what is
+/// sensed do on a tilted or eccentric part. Then |A|² is a sum of the cosines of one step and of
+/// two, summed over the readings.
 std::vector<double> LineNorms::by_every_step(const Scan& scan, double low, double df,
                                              std::size_t bins) const {
   const LinearisationPoint& point = equations_.point();
@@ -146,7 +146,7 @@ std::vector<double> LineNorms::by_every_step(const Scan& scan, double low, doubl
     const auto counts = [&](std::size_t i) {
       return i >= lag && mask.used[i] && mask.run[i] >= phi.size();
     };
-    // Of readings from `begin` on, from that before by the lag; 0 where one does not count.
+    // Steps of readings from `begin` on, from the one before by the lag; 0 if one does not count.
     const auto steps_of = [&](PointColumn column, std::size_t begin, std::size_t size,
                               double* out) {
       const std::size_t start = begin - std::min(begin, lag);

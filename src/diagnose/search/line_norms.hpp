@@ -9,7 +9,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Of every pass, how many readings count with those that predict them.
+/// For every pass, how many readings count with those that predict them.
 std::vector<double> readings_that_count(const NormalEquations& equations);
 
 /// Squares of the whitened columns of the lines in one variable.
@@ -22,7 +22,7 @@ class LineNorms {
             const Means* means);
 
   const std::vector<double>& autoregression() const { return equations_.autoregression(); }
-  /// Of cos as of sin (2π f x − turns θ), f = low, low + df …
+  /// The norms of cos and of sin (2π f x − turns θ), f = low, low + df …
   std::vector<double> of(const Scan& scan, double low, double df, std::size_t bins) const;
 
  private:
@@ -32,7 +32,7 @@ class LineNorms {
 
   const NormalEquations& equations_;
   PointColumn x_;
-  /// Of each pass: readings_that_count, and the mean step of C and x from one to the next.
+  /// For each pass: readings_that_count, and the mean step of C and x from one to the next.
   std::vector<double> used_, c_step_, x_step_;
 };
 

@@ -11,8 +11,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-// Standard deviations in steps from angle to angle and from section to section: of what meets one
-// reading, of what its neighbours see too, and of what several do.
+// Standard deviations in steps from angle to angle and from section to section: for what meets one
+// reading, for what its neighbours see too, and for what several do.
 constexpr double widths[] = {0.4, 0.9, 2.0, 3.0}, lengths[] = {0.4, 1.2, 3.0};
 constexpr double widest_rad = two_pi / 12.0;            // a sixth of a turn: beyond it is lobes
 constexpr double least_width = 0.3;                     // of the steps

@@ -13,12 +13,12 @@ inline bool is_local(const TermValue& h) {
   return !h.effect && h.pattern.kind == Pattern::Kind::bump;
 }
 
-/// Makes a form no wider than a local one is; of a sparse problem also no finer than the readings,
-/// and one of the part.
+/// Makes a form no wider than a local one is. In a sparse problem it becomes no finer than the
+/// readings, and one of the part.
 void keep_local(const Problem& problem, Hypothesis& form);
 
-/// −2 ln of the share of all places, widths and lengths that explain the readings as well as a form
-/// of the terms does, times that of parts that have one: what its choice costs (Eq. 82d).
+/// What the choice of a local form costs (Eq. 82d): −2 ln of the share of all places, widths and
+/// lengths that fit the readings like one of the terms, times that of parts that have one.
 double shape_choice(const Problem& problem, const std::vector<double>& phi,
                     const std::vector<Hypothesis>& terms, std::size_t term);
 
@@ -38,13 +38,12 @@ class LocalForms {
   std::size_t size_of(std::size_t form) const { return size_[form]; }
   std::size_t sizes() const { return sizes_; }
 
-  /// Columns of terms at the readings that count, behind those of the surface where they are
-  /// wanted.
+  /// Columns of terms at the readings that count, after those of the surface if they are wanted.
   Eigen::MatrixXd rows_of(const std::vector<Hypothesis>& terms, bool with_base) const;
-  /// The readings that count less the ideal surface, mm.
+  /// The readings that count less the ideal fit, mm.
   const Eigen::VectorXd& deviation_mm() const { return deviation_; }
 
-  /// Those that explain most beside base and terms, best first.
+  /// Those that explain most after base and terms, best first.
   /// @param one_of_each of every width and length the best alone
   std::vector<Hypothesis> beside(const std::vector<Hypothesis>& terms, std::size_t most,
                                  bool one_of_each) const;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, best_refined = 6;
 constexpr std::size_t most_peaks = 8, most_rivals = 20;
-constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
+constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival cause
 constexpr double line_tests = 3.6;  // Rice's √(S/2) near the threshold: what a scan's choice costs
 constexpr double step_shrink = 0.4;
 constexpr int rounds = 4;
@@ -59,7 +59,7 @@ double half_cell(const Hypothesis& line, const LinearisationPoint& point) {
   return 0.4 / point.range(spatial ? &PointPart::s : variable_of(line)).length();
 }
 
-/// Peaks that are not far behind the tallest, as hypotheses.
+/// Peaks that are not much lower than the tallest, as hypotheses.
 void take_peaks(std::vector<Peak> peaks, std::size_t most, double tests,
                 std::vector<Hypothesis>& list) {
   std::ranges::stable_sort(peaks, [](const Peak& a, const Peak& b) { return a.gain > b.gain; });
@@ -93,9 +93,9 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<Candidate>& list, std::s
   return out;
 }
 
-/// p-values averaged over what the noise may be as well: of ν readings beyond the columns the first
-/// partial correlation a is known to u = 1/√ν of artanh a (Fisher), and where it is underestimated
-/// all that is slow looks significant. Three nodes of a Gauss-Hermite rule.
+/// p-values averaged over what the noise may also be. With ν readings beyond the columns the first
+/// partial correlation a is known to u = 1/√ν of artanh a (Fisher). If it is underestimated, all
+/// that is slow looks significant. Three nodes of a Gauss-Hermite rule.
 void average_over_noise(const Problem& problem, const std::vector<double>& phi, double freedom,
                         const std::vector<Hypothesis>& terms, std::vector<Candidate>& list) {
   if (phi.empty() || list.empty()) return;
@@ -113,7 +113,7 @@ void average_over_noise(const Problem& problem, const std::vector<double>& phi, 
   for (std::size_t i = 0; i < list.size(); ++i) list[i].log_p = std::log(std::max(p[i], 1e-300));
 }
 
-/// The best of each effect and rank among those that explain nearly as much as any; of lines all:
+/// The best of each effect and rank among those that explain nearly as much as any. All lines stay:
 /// at its first shape a line looks like its mirror, such as that of a spiral probed with nearly its
 /// own lead.
 std::vector<Candidate> one_of_each(const std::vector<Candidate>& list) {
@@ -218,7 +218,7 @@ Hypothesis refine(const Problem& problem, const std::vector<double>& phi,
   return refined(judge, judge({candidate}), step).front().hypothesis;
 }
 
-/// What one look beside the terms gives.
+/// What one look after the terms gives.
 struct Proposer::Step {
   std::vector<Candidate> presets, basis;  ///< best first
   Scans scans;

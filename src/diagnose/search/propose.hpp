@@ -16,7 +16,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// The best next hypotheses beside some terms, refined, best first.
+/// The best next hypotheses after some terms, refined, best first.
 struct Proposal {
   std::vector<Candidate> causes, patterns;
   std::optional<Candidate> impossible;  ///< the best cause of a size that cannot be
@@ -37,10 +37,10 @@ class Proposer {
   /// @param phi autoregression of the noise
   const Proposal& beside(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
 
-  /// Asks beside some lists of terms at the same time, where there are threads to do so.
+  /// Asks after some lists of terms at the same time, if there are threads to do so.
   void ask(std::vector<std::vector<Hypothesis>> lists, const std::vector<double>& phi);
 
-  /// Makes ready for rivals.
+  /// Makes ready for rival causes.
   void prepare(const std::vector<double>& phi);
   /// One of each effect that might explain the same as a cause that was named, which is among them;
   /// with the noise that was prepared for. May be asked by several threads.
@@ -74,7 +74,7 @@ class Proposer {
   std::deque<Asked> asked_;
 };
 
-/// A hypothesis refined to its own best shape beside `others`.
+/// A hypothesis refined to its own best shape together with `others`.
 Hypothesis refine(const Problem& problem, const std::vector<double>& phi,
                   const std::vector<Hypothesis>& others, const Hypothesis& candidate, double step);
 

@@ -54,7 +54,7 @@ void pattern_of_line(const LinearisationPoint& point, const Resolution& resoluti
                           line.step * two_pi / std::abs(lead), std::abs(frequency)});
 }
 
-/// The highest of a band, none beside another.
+/// The highest of a band, none next to another.
 std::vector<Top> highest(Column& gain, std::size_t first_bin, std::size_t most) {
   std::vector<Top> out;
   while (out.size() < most) {
@@ -68,7 +68,7 @@ std::vector<Top> highest(Column& gain, std::size_t first_bin, std::size_t most) 
   return out;
 }
 
-/// What lies in `within` beside some intervals of it.
+/// What lies in `within` outside some intervals of it.
 std::vector<Extent> beside(const std::vector<Extent>& intervals, Extent within) {
   std::vector<Extent> out;
   for (const Extent& interval : intervals) {
@@ -128,7 +128,7 @@ struct LineScanner::Job {
       if (interval == counted.end() || interval->low > f) gain[k] = 0.0;
     }
   }
-  /// Of a bin, counted through all bands.
+  /// The place of a bin, counted through all bands.
   double frequency(std::size_t bin) const {
     auto band = bands.begin();
     while (bin >= band->bins) bin -= (band++)->bins;

@@ -17,10 +17,10 @@ struct Peak {
   Hypothesis hypothesis;
   double gain = 0.0;       ///< decrease of the sum of squares, the surface's own columns forgotten
   double step = 0.0;       ///< of the scanned frequency, half a resolution cell
-  double frequency = 0.0;  ///< scanned variable: cycles per turn, s, mm
+  double frequency = 0.0;  ///< scanned variable: cycles per revolution, s, mm
 };
 
-/// Periodograms of what is left, over everything a line can be periodic in.
+/// Periodograms of the residuals, over everything a line can be periodic in.
 struct Scans {
   std::vector<Peak> causes;    ///< of catalogued kinds, the best of each scan first
   std::vector<Peak> patterns;  ///< (order × Z frequency) and (order × time frequency)
@@ -78,7 +78,7 @@ bool is_line(const Hypothesis& hypothesis);
 /// What a line is periodic in.
 PointColumn variable_of(const Hypothesis& line);
 
-/// Σ⁻¹ times what is left, up to the innovation's variance: WᵀW e; 0 where a row does not count.
+/// Σ⁻¹ times the residuals, up to the innovation's variance: WᵀW e; 0 where a row does not count.
 /// Eq. 66.
 std::vector<double> weighted(const NormalEquations& equations, std::vector<double> remainder_mm);
 

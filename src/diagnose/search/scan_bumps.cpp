@@ -22,7 +22,8 @@ void widen(Extent& extent, double to) {
 
 }  // namespace
 
-// Of few readings a form has few; of many the smallest windows would be chances among very many.
+// In few readings a form has few; in many the smallest windows would be coincidences among very
+// many.
 BumpScanner::BumpScanner(const LinearisationPoint& point, const ObservationMask& mask)
     : point_(&point),
       mask_(&mask),

@@ -9,8 +9,8 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Sums of what is left over windows in (θ, s): where a local form may be. In which window of every
-/// size a reading lies is worked out once.
+/// Sums of the residuals over windows in (θ, s): where a local form may be. In which window of
+/// every size a reading lies is worked out once.
 class BumpScanner {
  public:
   /// @param point, mask outlive this
@@ -31,7 +31,7 @@ class BumpScanner {
     std::vector<char> seen;             ///< whether it is looked at
   };
   Grid grid_of(std::size_t sectors, std::size_t lengths) const;
-  /// @returns whether one stands out, as `best`
+  /// @returns whether one is exceptional, as `best`
   bool best_of(const Grid& grid, std::span<const double> weighted, Hypothesis& best) const;
 
   const LinearisationPoint* point_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double places_a_swing = 2.5;  // of the swing
 /// Half a place off, |F| and |R| of readings that are spread over the swing are up to 6.5 % higher:
-/// (sin x/x)⁻² at x = π/2.5/2 is 1.14; of those at its ends only, a little more.
+/// (sin x/x)⁻² at x = π/2.5/2 is 1.14. For readings at its ends only it is a little more.
 constexpr double between_places = 1.25;
 constexpr std::size_t worth = 8;  // bins a cell, or they save nothing
 

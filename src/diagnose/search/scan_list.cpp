@@ -96,7 +96,7 @@ double half_a_cycle(const LinearisationPoint& point, PointColumn x) {
   return most;
 }
 
-/// Of an order n either way round, of few cycles and more up to half a cycle in a turn.
+/// Lines of an order n, either way round, from few cycles up to half a cycle in a turn.
 void add_patterns(const LinearisationPoint& point, const Sampled& of, bool in_time, bool counts,
                   int harmonics, std::vector<Scan>& list) {
   const PointColumn x = in_time ? &PointPart::time : &PointPart::s;
@@ -168,7 +168,7 @@ std::vector<Scan> scans_of(const Problem& problem) {
       list.push_back(scan_of(*effect, of, point));
       if (in == spiral) list.back().left_out = slow_spirals(problem);
     }
-    // Of one variable, the lines of C are these too.
+    // If there is one variable, the lines of C are these too.
     const bool same = resolution.one_variable && !list.empty() && list[0].x == &PointPart::c;
     if (in == spiral && of.seen && !same)
       add_patterns(point, of, false, of.another, resolution.harmonics, list);

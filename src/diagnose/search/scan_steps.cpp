@@ -23,9 +23,9 @@ using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_columns, 1>;
 
 constexpr double absorbed = 1e-6;  // share of a column's square below which base and terms hold it
 constexpr double undetermined = 1e-11;
-constexpr double seen = 24.0;  // σ² of the sum of squares: less is no step among so many tests
-constexpr std::size_t per_column = least_beside_step / 2;  // readings beside a step of two sizes
-constexpr std::size_t few = 16;  // readings a column: of a side of so few two are left out
+constexpr double seen = 24.0;  // σ² of the sum of squares: less is not a step among so many tests
+constexpr std::size_t per_column = least_beside_step / 2;  // readings next to a step of two sizes
+constexpr std::size_t few = 16;  // readings per column: with so few on a side two are ignored
 constexpr double kept = 0.25;    // share of the gain that is there without them: of eight (6/8)²
 constexpr double as_likely = 12.0;  // σ² of the sum of squares: dates among which sizes decide
 
@@ -69,7 +69,7 @@ ByRows orthonormal(const Matrix& columns) {
 struct Date {
   std::size_t reading;
   Square gram;
-  Vector right, whole;  ///< products with what is left; squares of the columns themselves
+  Vector right, whole;  ///< products with the residuals; squares of the columns themselves
   Vector without;       ///< products without the two largest readings of a short side
 };
 
@@ -144,8 +144,8 @@ double gain_of(const std::vector<Index>& form, const Date& date, Vector along) {
   return gain;
 }
 
-/// The most likely date of a form: of those that take off as much but for noise, by their plausible
-/// sizes (a step at a standing spindle is seen along the probe alone).
+/// The most likely date of a form, by their plausible sizes, among those that explain as much
+/// within the noise. A step at a standing spindle shows along the probe alone.
 const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
                         const std::vector<Date>& dates, std::size_t size, double rss,
                         double freedom) {

@@ -7,12 +7,11 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Steps between any two readings beside base and terms: of every form of every effect that is a
-/// step the date that takes most off the sum of squares, from sums over the readings before it
-/// (Eq. 75a). A step dated a few readings off leaves them behind, which costs it more in a short
-/// stream than its size is worth there.
-/// @param phi autoregression of the noise; where a run begins its rows are left out
-/// @param tests is how many independent dates of how many forms were looked at
+/// Steps between any two readings after base and terms. Every form of every effect that is a step
+/// has the date that lowers the sum of squares most, from sums over the readings before it (Eq.
+/// 75a). A step dated a few readings off leaves these unexplained, which costs it more in a short
+/// stream than its size is worth there. @param phi autoregression of the noise; the first rows of a
+/// run do not count @param tests is how many independent dates of how many forms were looked at
 std::vector<Hypothesis> scan_steps(const Problem& problem, const std::vector<double>& phi,
                                    const std::vector<Hypothesis>& terms, double& tests);
 

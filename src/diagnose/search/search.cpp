@@ -107,7 +107,7 @@ Model best_of(const Problem& problem, std::vector<Model> found) {
 }
 
 /// Found step by step from nothing, from lobes of all orders, and from each local form with the
-/// lobes that are left beside it.
+/// lobes that are left after it.
 Model search_few_angles(Proposer& proposer, StepwiseSearch& engine) {
   const Problem& problem = proposer.problem();
   std::vector<Model> found{search_with(engine)};

@@ -13,11 +13,11 @@ struct Otherwise {
   double probability = 0.0;
 };
 
-/// A set of terms beside the surface.
+/// A set of terms in addition to the surface.
 struct Model {
   std::vector<Hypothesis> terms;
   std::vector<double> p_values;  ///< family-wise
-  std::vector<double> phi;       ///< autoregression of the noise beside them
+  std::vector<double> phi;       ///< autoregression of the noise after them
   double criterion = 0.0;
   Family family;
   /// What would explain more than any term that may be taken, were its size one that can be.

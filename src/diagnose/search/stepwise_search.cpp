@@ -70,7 +70,7 @@ class StepwiseSearch::Engine {
     std::erase_if(p.patterns, fails);
     const double cause = p.causes.empty() ? 1e300 : p.causes[0].criterion;
     const double pattern = p.patterns.empty() ? 1e300 : p.patterns[0].criterion + catalogue_first;
-    // Of what only a size explains that cannot be, the next best is not the cause either.
+    // If only an impossible size explains something, the next best is not the cause either.
     if (p.impossible && !fails(*p.impossible) &&
         p.impossible->criterion + catalogue_first < std::min(cause, pattern)) {
       model_.impossible = p.impossible->hypothesis.effect;
@@ -94,7 +94,7 @@ class StepwiseSearch::Engine {
     return best->hypothesis;
   }
 
-  /// Beside all others; 0 of a term whose size cannot be or that does not predict.
+  /// After all others; 0 for a term whose size is impossible or that does not predict.
   double log_p(std::size_t i) {
     const Made& made = made_of(model_.terms);
     return is_possible(made, i) && predicts(made, i) ? made.in.log_p(i) : 0.0;
@@ -165,10 +165,10 @@ class StepwiseSearch::Engine {
     return local_forms == LocalFormsTaken::given && is_local(h);
   }
 
-  /// Noise before any term. What is no noise may look like it, and whitening then takes it away: a
-  /// line that is no whole order like one that rings, a step, or of few readings anything slow,
-  /// like a walk. Where terms beside a noise of their own leave less than chance makes them, that
-  /// noise is taken.
+  /// Noise before any term. What is not noise may look like it, and whitening then removes it. A
+  /// line that is not a whole order looks like noise that rings; a step, or in few readings
+  /// anything slow, looks like a walk. If terms with a noise of their own leave less than random
+  /// ones would, that noise counts.
   std::vector<double> first_noise() {
     if (problem_.resolution.sparse) return {};
     Autoregression best = noise_({});
@@ -239,14 +239,14 @@ class StepwiseSearch::Engine {
     return held_out_by(made, made.in.besides()) < held_out_by(made, made.in.besides(i));
   }
 
-  /// Whether its sizes beside all others are.
+  /// Whether its sizes after all others are.
   static bool is_possible(const Made& made, std::size_t i) {
     return size_prior(made.terms[i]).allows(made.in.of(i));
   }
 
-  /// Lobes of the jaws with their second harmonic take two orders at once, and a line next to the
-  /// surface's own columns the forms of several causes at a size that hardly is: two causes may do
-  /// so too.
+  /// Lobes of the jaws with their second harmonic explain two orders at once. A line next to the
+  /// surface's own columns explains the forms of several causes at an implausible size. Two causes
+  /// may do so too.
   bool may_split(std::size_t i) {
     if (i >= terms().size() || splits(terms()[i])) return i < terms().size();
     const Made& made = made_of(terms());

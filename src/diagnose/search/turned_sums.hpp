@@ -9,7 +9,8 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Whether behind the readings are of the other sign than in front; of one side it is no matter.
+/// Whether the readings at the rear have the other sign than in front; on one side it does not
+/// matter.
 inline bool is_turned_round(const Scan& scan, const LinearisationPoint& point) {
   return scan.form && point.two_sided;
 }
@@ -27,7 +28,7 @@ struct TurnedSums {
   }
 };
 
-/// @param left of every reading, of a form to be turned round behind
+/// @param left of every reading, of a form to be turned round at the rear
 TurnedSums turned_sums(const FourierSums& plan, const LinearisationPoint& point, const Scan& scan,
                        const std::vector<double>& left);
 

@@ -23,15 +23,15 @@ std::vector<Rejected> rejected_from(const Json& json);
 
 /// The fit that `fit_object` wrote, but for what only its readings can tell: no residuals, budget,
 /// derived quantities or covariance of the parameters; of each set-up the axis. One that did not
-/// converge has no numbers. @throws Json::exception and InputError for what is no fit.
+/// converge has no numbers. @throws Json::exception and InputError for what is not a fit.
 FitResult fit_from_object(const Json& json);
 
 /// The same of a file's text, converged and with the covariance of its axis.
 /// @param path of the text, for messages
-/// @throws InputError if it is no such trueaxis.fit/1.
+/// @throws InputError if its schema is not trueaxis.fit/1.
 FitResult fit_from_json(std::string_view text, const std::string& path);
 
-/// The fit for a person at a terminal: status, parameters with U, what is left, what to do.
+/// The fit for a person at a terminal: status, parameters with U, residuals, what to do.
 std::string fit_text(const FitResult& result);
 
 /// A fit in some eight lines for a person: how good it is, the axis, the sizes, what to know of
@@ -42,10 +42,10 @@ std::string fit_screen(const FitResult& result);
 /// its tilt; empty if nothing was fitted.
 std::string axis_screen(const FitResult& result);
 
-/// For those without a servo: at which C the part stands out towards the probe, at the end that is
+/// For those without a servo: at which C the part is out towards the probe, at the end that is
 /// farther off, and how far to tap it there. The run-out is twice the distance of the axis; a probe
-/// behind meets what stands out half a turn later. Empty where the offset is within twice its U, of
-/// a plane, and where nothing was fitted.
+/// at the rear meets the high spot half a turn later. Empty where the offset is within twice its U,
+/// of a plane, and where nothing was fitted.
 std::string tap_text(const FitResult& result);
 
 /// "tap    The cone runs out 129 µm at Z 0 mm: tap at C = 16° by 64.7 µm", the line of a screen

@@ -55,7 +55,7 @@ Json budget(const FitResult& result) {
   });
 }
 
-/// What was done before each set-up, and the part as it then stood.
+/// What was done before each set-up, and the part as it was then.
 Json set_up_object(const SetUpFit& one) {
   const SetUp& set_up = one.set_up;
   return {{"number", set_up.number},
@@ -101,7 +101,7 @@ Json axis_object(const AxisEstimate& estimate) {
              })}}}};
 }
 
-/// The file, what was taken of it that nothing says, and what of it was not used.
+/// The file, what was assumed that it does not state, and what of it was not used.
 Json input_object(const FitResult& result) {
   Json json{{"file", result.source}, {"hash", result.input_hash}, {"notes", result.input_notes}};
   if (result.x_convention) {
@@ -123,7 +123,7 @@ FitStatus status_from(const std::string& text) {
   throw InputError("fit", "a fit does not end with `" + text + "`");
 }
 
-/// Of the parameters x0, y0, l, m; a section has no l, m, a plane no x0, y0.
+/// The place of the parameters x0, y0, l, m; a section has no l, m, a plane no x0, y0.
 Axis axis_from_parameters(const Json& parameters) {
   Axis axis;
   if (parameters.contains("x0")) axis = {value(parameters, "x0"), value(parameters, "y0")};

@@ -12,9 +12,9 @@
 /// JSON of what the diagnoses of a part and of a machine state alike.
 namespace trueaxis {
 
-/// id, class, parameters and what the tests say of a finding.
+/// id, class, parameters and what the tests say of a cause.
 Json finding_object(const std::string& effect, const NamedFinding& finding, Json parameters);
-/// Its share of the readings, and its rivals.
+/// Its share of the readings, and its rival causes.
 void add_rivals(Json& json, const NamedFinding& finding);
 
 /// The size that would be found.
