@@ -105,7 +105,7 @@ double parts_of(const AxisPositions& from, const AxisPositions& to, const ErrorB
   return parts;
 }
 
-/// Eq. 200: what a way has beside the parabola through its ends and middle, at most.
+/// Eq. 200: how far a way is off the parabola through its ends and middle, at most.
 double beside_parabola_mm(const AxisPositions& from, const AxisPositions& to,
                           const ErrorBends& bends) {
   constexpr double lever_mm = 1000.0;

@@ -16,9 +16,9 @@ class BlockPath {
   BlockPath(const CompensationTask& task, const nc::Move& move, const BlockEnd& from,
             const BlockEnd& to, bool same_setting, const HeldAxes& held);
 
-  /// Largest distance of the actual tip from the line between the nominal ends: of the program as
-  /// it was read, and as it is written in one piece; to a hundredth where it is above
-  /// `of_interest_mm`, and else no more than that.
+  /// Largest distance of the actual tip from the line between the nominal ends, for the program as
+  /// it was read, and as it is written in one piece. It is right to a hundredth if above
+  /// `of_interest_mm`, else not more than that.
   double deviation_before_mm(double of_interest_mm) const;
   double deviation_after_mm(double of_interest_mm) const;
   /// The same of the program as it was read on a machine without errors.

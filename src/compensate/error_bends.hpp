@@ -19,7 +19,7 @@ struct ErrorBends {
   /// The largest change of slope there, of the tip a metre from where it turns: mm per mm or rad.
   AxisPositions corner_mm;
 
-  /// What the corners between two positions of an axis do to the tip beside a straight way.
+  /// What the corners between two positions of an axis do to the tip compared with a straight way.
   double off_mm(std::size_t axis, double from, double to) const;
 };
 

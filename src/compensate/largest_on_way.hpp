@@ -10,10 +10,11 @@
 
 namespace trueaxis {
 
-/// The largest of a function on [0, 1], by `count` + 1 even points (2 or more parts): of them, and
-/// where the largest can be above `of_interest`, beside each of them that is a peak and within a
-/// tenth of the largest. There the vertex of the parabola through three points is asked; where the
-/// function is not what the parabola says, golden section finds the peak to 1e-5 of two parts.
+/// The largest of a function on [0, 1], by `count` + 1 even points (2 or more parts). If the
+/// largest can be above `of_interest`, the search goes on next to each point that is a peak and
+/// within a tenth of the largest. There the vertex of the parabola through three points is asked;
+/// where the function is not what the parabola says, golden section finds the peak to 1e-5 of two
+/// parts.
 template <class Of>
 class LargestOnWay {
  public:

@@ -11,10 +11,10 @@
 
 namespace trueaxis {
 
-/// Which rotary axes a move must not turn. The change of a rotary axis is made by a block that
-/// moves it and stays until the next one that does, so that an axis which a program leaves standing
-/// stands still. Before the first block the axes are where [program] start has them, and else at
-/// the word 0: what the program never moves from there is not changed at all.
+/// Which rotary axes a move must not turn. A block that moves a rotary axis makes its change, which
+/// stays until the next one that does. An axis that the program does not move therefore does not
+/// move. Before the first block the axes are where [program] start has them, and else at the word
+/// 0: what the program never moves from there is not changed at all.
 class RotaryHold {
  public:
   explicit RotaryHold(const CompensationTask& task);

@@ -9,12 +9,12 @@
 
 namespace trueaxis {
 
-/// What each of several errors does to the tip when it is the only one. Before its joint and behind
-/// it the chain is then the nominal one, a rigid motion, so that only the joint itself is asked:
+/// What each of several errors does to the tip when it is the only one. Before its joint and after
+/// it the chain is then the nominal one, a rigid motion, so that only the joint itself matters:
 /// |P(E) p - P p| with p the tip seen from the joint.
 class SingleErrors {
  public:
-  /// Of every name of the errors, in the order in which they come first.
+  /// For every name of the errors, in the order in which they come first.
   static SingleErrors of_names(const MachineModel& model);
 
   const std::vector<std::string>& names() const { return names_; }

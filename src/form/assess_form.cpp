@@ -144,7 +144,7 @@ class Assessment {
     return values;
   }
 
-  /// What is to be said of the cylinders.
+  /// The remarks about the cylinders.
   std::vector<std::string> notes() const {
     std::vector<std::string> out;
     const auto add = [&](std::string note, const char* of) {
@@ -208,7 +208,7 @@ class Unresolved {
   static bool is_whole(const NamedValue& value) {
     return value.name.size() > 4 || value.name.ends_with('t');
   }
-  /// Of RONt, RONp … about one circle.
+  /// The values RONt, RONp … about one circle.
   static std::string family(const NamedValue& value) {
     return value.name.substr(0, 3) + (value.name.size() > 4 ? value.name : "") + value.reference;
   }
@@ -237,7 +237,7 @@ void hand_out(FormResult& result, const std::vector<NamedValue>& values,
   }
 }
 
-/// A surface's draws take in what was taken off its readings; what is left is of sections.
+/// A surface's draws contain what was subtracted from its readings; the rest is of sections.
 std::vector<TakenOff> hand_to_surfaces(std::span<const TakenOff> taken_off, PartModel& part,
                                        PartModel& datum) {
   std::vector<TakenOff> out;

@@ -11,7 +11,7 @@
 
 namespace trueaxis::form {
 
-/// A circle about points that stand at angles and distances from a pole near its centre.
+/// A circle about points, given by angles and distances from a pole near its centre.
 struct AssociatedCircle {
   double x_mm = 0.0, y_mm = 0.0, radius_mm = 0.0;  ///< centre against the pole
   std::vector<double> off_mm;                      ///< of each point, outwards

@@ -22,7 +22,7 @@ class Generatrices {
   /// Where one meets a section, between two places of its profile.
   struct Crossing {
     std::size_t before, behind;
-    double share;    ///< of the one behind
+    double share;    ///< of the one at the rear
     double base_mm;  ///< distance from the axis without the profile
   };
   std::vector<std::size_t> sections_;        ///< in order of Z

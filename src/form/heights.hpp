@@ -24,7 +24,7 @@ class HeightModel {
   HeightModel(std::span<const std::array<double, 2>> at_mm, bool plane, const Names& names);
 
   std::vector<NamedValue> assess(std::span<const double> height_mm) const;
-  /// What is left of the least-squares plane or line.
+  /// The residual of the least-squares plane or line.
   std::vector<double> off_mm(std::span<const double> height_mm) const;
 
  private:

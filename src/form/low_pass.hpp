@@ -30,8 +30,8 @@ double longest_step(double cutoff);
 /// @param cutoff wavelength in the unit of the trace's places
 std::unique_ptr<LowPass> gaussian_low_pass(const Trace& trace, double cutoff);
 
-/// Robust Gaussian regression filter of second degree (ISO 16610-31, Eq. 263): readings further
-/// off than 4.4478 medians of what is left count nothing, nearer ones by Tukey's biweight.
+/// Robust Gaussian regression filter of second degree (ISO 16610-31, Eq. 263): readings further off
+/// than 4.4478 medians of the residuals do not count, nearer ones count by Tukey's biweight.
 std::unique_ptr<LowPass> robust_low_pass(const Trace& trace, double cutoff);
 
 /// Linear spline filter (ISO 16610-22, Eq. 264), by the true places; natural at ends and gaps.

@@ -5,7 +5,7 @@
 
 namespace trueaxis::form {
 
-/// @throws InputError with every option that is no option
+/// @throws InputError with every invalid option
 void expect_options(const FormOptions& options);
 
 /// That the values are of one surface.

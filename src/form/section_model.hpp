@@ -22,7 +22,7 @@ struct AxisOffset {
   double x_mm, y_mm;
 };
 
-/// An order's square over the variance of its coefficients, from which on it is no noise: 5 % of
+/// An order's square over the variance of its coefficients, from which on it is not noise: 5 % of
 /// orders without form are above, as exp(−6/2).
 inline constexpr double shown_over_noise = 6.0;
 
@@ -102,8 +102,8 @@ class SectionModel {
   std::string trouble_;
 };
 
-/// Standard deviation of the readings of a trace that neighbours show: of what a reading is off the
-/// line through both, by the median. White noise only, with what roughness adds. Eq. 270.
+/// Standard deviation of the readings of a trace that neighbours show: the median distance of a
+/// reading from the line through both. White noise only, with what roughness adds. Eq. 270.
 double shown_noise_mm(const Trace& trace);
 
 /// "LSCI" … of a circle, "LSCY" … of a cylinder by the `suffix` "CY".

@@ -32,7 +32,7 @@ double spindle_distance(const ProbeStream& stream, const FormOptions& options, s
                                 : 0.0;
   const bool positions = stream.indication == Indication::absolute;
   const double towards = options.bore ? ball_mm : -ball_mm;
-  // Behind the axis X_M is negative: the reading is of the point half a turn on.
+  // On the rear side X_M is negative: the reading is of the point half a turn on.
   return nominal_mm + std::abs(stream.reading_mm[i]) * (positions ? 1.0 : 0.0) +
          (positions ? towards : stream.reading_mm[i]);
 }
@@ -78,7 +78,7 @@ std::vector<std::vector<std::size_t>> by_position(const ProbeStream& stream) {
   return helix ? std::vector<std::vector<std::size_t>>{} : sections;
 }
 
-/// Whole turns of C from the first reading on; what is left at the end is no section.
+/// Whole turns of C from the first reading on; a rest at the end is not a section.
 std::vector<std::vector<std::size_t>> by_turns(const ProbeStream& stream) {
   std::map<double, std::vector<std::size_t>> by_turn;  // of a C that jumps far, few of many turns
   const double from = stream.c_rad.front();
@@ -113,7 +113,7 @@ SectionReadings readings_of(const ProbeStream& stream, const FormOptions& option
   return section;
 }
 
-/// What cone and tilted axis do between a reading's Z and the section's is taken off. Eq. 268.
+/// Subtracts what cone and tilted axis do between a reading's Z and the section's. Eq. 268.
 void take_off_slope(const ProbeStream& stream, const std::vector<std::vector<std::size_t>>& turns,
                     Sections& sections) {
   const auto [low, high] = range_of(stream.position_mm);

@@ -17,9 +17,9 @@ struct SectionReadings {
   std::size_t size() const { return angle_rad.size(); }
 };
 
-/// A lateral stream cut into sections: where Z stands still, each Z is one; a helix that is no
-/// surface, for a cut-off above 50 UPR, is cut into turns, and what the associated cone does along
-/// Z within a turn is taken off (Eq. 268).
+/// A lateral stream cut into sections. If Z does not move, each Z is one. A helix that is not a
+/// surface, for a cut-off above 50 UPR, is cut into turns, less what the associated cone does along
+/// Z within a turn (Eq. 268).
 struct Sections {
   std::vector<SectionReadings> list;
   bool radius_known = true;  ///< false: a gauge without a nominal radius; Eq. 265 is then a limaçon
@@ -27,7 +27,7 @@ struct Sections {
   std::vector<std::string> notes;
 };
 
-/// All readings of a part that is one surface: of a helix, or of sections whose angles differ.
+/// All readings of a part that is one surface: a helix, or sections whose angles differ.
 struct SurfaceReadings {
   std::vector<double> angle_rad, distance_mm, z_mm;
   double turns = 1.0;  ///< or sections
@@ -39,7 +39,7 @@ struct SurfaceReadings {
 inline constexpr int highest_of_surface = 50;
 
 /// The highest cut-off (UPR) that the angles of all readings of a surface carry together,
-/// `highest_of_surface` at most. 0: the stream is no surface but sections, each by itself: fewer
+/// `highest_of_surface` at most. 0: the stream is not a surface but sections, each by itself: fewer
 /// than 4, or such that carry a standard cut-off (15 UPR) alone.
 struct UprOfSurface {
   int by_steps = 0;     ///< 7 readings a wave
@@ -48,7 +48,7 @@ struct UprOfSurface {
 UprOfSurface upr_of_surface(const ProbeStream& stream, const FormOptions& options);
 SurfaceReadings surface_readings(const ProbeStream& stream, const FormOptions& options);
 
-/// @throws InputError with all that is no measurement of sections: a face, several set-ups or
+/// @throws InputError with all that is not a measurement of sections: a face, several set-ups or
 ///         sensors, numbers that are not finite, angles of another unit, fewer than 4 readings
 Sections sections_of(const ProbeStream& stream, const FormOptions& options);
 

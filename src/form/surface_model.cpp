@@ -29,7 +29,7 @@ constexpr double seen = 0.05, certain = 0.999;
 constexpr std::size_t angles_a_wave = 32, angles_of_doubtful = 3;  // an order more likely absent
 constexpr std::size_t fewest_angles = 96, most_angles = 720;
 constexpr double turns_about_a_station = 3.0;
-constexpr double widest_of_steps = 2.5;  // of a turn's: a step that is no gap
+constexpr double widest_of_steps = 2.5;  // of a turn's: a step that is not a gap
 constexpr int alignments = 3;
 constexpr double robust_medians = 4.4478;  // 3 σ of normal noise
 
@@ -227,7 +227,7 @@ std::vector<Order> SurfaceModel::orders_at(const Station& station) const {
       squares +=
           (amplitudes(station.along, n, posterior_.coefficients.col(draw)) - mean).squaredNorm();
     const double u = std::sqrt(squares / static_cast<double>(draws()) / SurfaceTerms::width(n));
-    // Of an order that no draw has, that of least squares.
+    // For an order that no draw has, that of least squares.
     const double flat = std::sqrt(SurfaceTerms::width(n) / static_cast<double>(off_mm_.size()));
     out.push_back({n, mean[0], mean[1], std::max(u / noise_mm_, flat)});
   }

@@ -23,11 +23,11 @@ class SurfaceModel {
 
   std::size_t draws() const { return static_cast<std::size_t>(posterior_.coefficients.cols()); }
   /// Filtered profiles of a draw at the places of `sections()`, with what is not known of
-  /// amplitudes that were taken off.
+  /// amplitudes that were subtracted.
   std::vector<std::vector<double>> profiles(std::size_t draw) const;
 
-  /// Terms of one u of each amplitude that was taken off the readings, and their correlation; every
-  /// draw is then off by some of them. Eq. 291.
+  /// Terms of one u of each amplitude that was subtracted from the readings, and their correlation;
+  /// every draw is then off by some of them. Eq. 291.
   void add_taken_off(std::span<const std::vector<double>> columns_mm,
                      std::span<const double> correlation);
 

@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 constexpr std::size_t block = 1024;  // readings
 constexpr double quarter = 0.5 * std::numbers::pi;
 
-/// Sums over readings of functions of t times exp(ikθ). Of degrees d the functions are c_j =
+/// Sums over readings of functions of t times exp(ikθ). The functions of degrees d are c_j =
 /// cos(jφ), j ≤ 2d, t c_j, j ≤ d, t², and y c_j, y t, with φ = π (t + 1) / 2.
 class Sums {
  public:

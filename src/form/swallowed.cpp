@@ -57,7 +57,7 @@ class OrderAlongZ {
 
   double amplitude_mm = 0.0, u_mm = 0.0;
 
-  /// By chance less often than 1 in 10^4: the tail of chi-squared with 2 or 4 degrees.
+  /// In noise less often than 1 in 10^4: the tail of chi-squared with 2 or 4 degrees.
   bool is_there() const {
     const double half = 0.5 * chi_squared;
     return degrees > 0 &&

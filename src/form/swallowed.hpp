@@ -7,8 +7,8 @@
 
 namespace trueaxis::form {
 
-/// Lobes that the sections show together, constant along Z or growing, and of which a makeshift
-/// cut-off (below the 15 UPR where those of ISO 12181-2 begin) takes more than 5 %. Eq. 309.
+/// Lobes that the sections show together, constant along Z or growing. A makeshift cut-off (below
+/// the 15 UPR where those of ISO 12181-2 begin) takes more than 5 % of them. Eq. 309.
 std::vector<SwallowedLobes> swallowed_lobes(const std::vector<SectionModel>& sections,
                                             const FormOptions& options);
 

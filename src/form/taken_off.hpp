@@ -12,7 +12,7 @@ namespace trueaxis::form {
 /// The values after one u of an amplitude more.
 using Changed = std::function<std::vector<NamedValue>(const TakenOff& one, std::size_t column)>;
 
-/// Adds to u what the amplitudes that were taken off are uncertain by; Eq. 291.
+/// Adds to u the uncertainty of the amplitudes that were subtracted; Eq. 291.
 /// @param values without any change
 void add_taken_off(std::span<const TakenOff> taken_off, const std::vector<NamedValue>& values,
                    std::vector<Spread>& spread, const Changed& changed);

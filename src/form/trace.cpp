@@ -12,7 +12,7 @@ namespace {
 
 constexpr double one_place = 0.1;  // of the step of one turn: angles that jitter or are rounded
 
-/// One place that rounding set down before the end of the turn and behind its beginning.
+/// One place that rounding set down before the end of the turn and after its beginning.
 void join_ends(const std::vector<std::size_t>& counts, Trace& trace) {
   const auto first = static_cast<double>(counts.front()), last = static_cast<double>(counts.back());
   const double share = last / (first + last);

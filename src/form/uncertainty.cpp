@@ -17,7 +17,7 @@ using Engine = boost::random::mt19937_64;
 
 /// Orders of a motion of which the range alone is known: amplitudes fall with the order.
 constexpr int first_unknown = 2, last_unknown = 10;
-/// What the highest of a profile of noise stands out by, over its standard deviation.
+/// The height of the highest of a profile of noise, over its standard deviation.
 constexpr double largest_of_noise = 5.0;
 constexpr double nothing_mm = 1e-9, confidence_of_bound = 0.95;
 

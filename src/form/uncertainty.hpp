@@ -21,11 +21,10 @@ struct Spread {
   double bound = 0.0;  ///< 95 % of the trials in which it is not 0 are below
 };
 
-/// Of every value that `assess` gives, by readings with noise, with what a spindle's motion is
-/// uncertain by, and with what the ball may hide. The profile that noise is added to is the
-/// measured one, less the part of its variance that is noise already (Eqs. 271, 272). The trials of
-/// a surface are its draws.
-/// The same numbers on any number of threads.
+/// For every value that `assess` gives, by readings with noise, with the uncertainty of a spindle's
+/// motion, and with what the ball may hide. The profile that noise is added to is the measured one,
+/// less the part of its variance that is noise already (Eqs. 271, 272). The trials of a surface are
+/// its draws. The same numbers on any number of threads.
 std::vector<Spread> spreads(const PartModel& part, const PartModel& datum,
                             const FormOptions& options, const Assess& assess);
 

@@ -24,7 +24,7 @@ class WholeModel {
   WholeModel(const std::vector<SectionModel>& sections, std::span<const Criterion> criteria,
              bool in_space);
 
-  /// The axis of the cylinder by a criterion: of the measured profiles, and of some near these.
+  /// The axis of the cylinder by a criterion, for the measured profiles and for some near these.
   AxisLine axis(Criterion criterion) const { return measured_.at({criterion, false}).axis; }
   AxisLine axis_near(const std::vector<std::vector<double>>& filtered_mm,
                      Criterion criterion) const;
@@ -33,8 +33,8 @@ class WholeModel {
   /// (a tapered shaft touches at one end). Empty: it does not.
   std::string rocking(Criterion criterion) const;
 
-  /// CYLt, CYLp, CYLv, CYLq about the four cylinders, and the parts of ISO 12180; the cone's: of
-  /// the measured profiles, and of some near these, by Eq. 273 at the optimum.
+  /// CYLt, CYLp, CYLv, CYLq about the four cylinders, and the parts of ISO 12180; the cone's. They
+  /// are of the measured profiles, and of some near these, by Eq. 273 at the optimum.
   std::vector<NamedValue> measured() const;
   std::vector<NamedValue> near(const std::vector<std::vector<double>>& filtered_mm) const;
 

@@ -59,9 +59,9 @@ std::string csv_utf8(std::string_view text);
 std::string csv_quoted(std::string_view text);
 
 /// Collects what is wrong with one file; at most `max` places in it are listed, the rest counted.
-/// Three places of one `kind` are listed each; of more, the first, with how many there are and the
-/// lines that come next. Of a text that was made of a file, `line_of` gives the file's lines (0:
-/// none), and columns are not said.
+/// Up to three places of one `kind` are listed each. If there are more, it lists the first, with
+/// how many there are and the lines that come next. For a text that was made of a file, `line_of`
+/// gives the file's lines (0: none), without columns.
 class CsvDiagnostics {
  public:
   CsvDiagnostics(std::string file, std::size_t max,
@@ -70,7 +70,7 @@ class CsvDiagnostics {
 
   void add(std::size_t line, std::size_t column, std::string message, const std::string& kind = "");
   bool any() const { return !found_.empty() || more_ != 0; }
-  /// What is said behind everything that was found; nothing of itself.
+  /// A remark after everything that was found; it is not a mistake of its own.
   void remedy(std::string text) { remedy_ = std::move(text); }
   std::size_t line_of(std::size_t line) const { return line_of_ ? line_of_(line) : line; }
   /// Throws InputError with everything found, in line order, if anything was.

@@ -69,7 +69,7 @@ std::optional<FileIdentity> of_file(const struct stat& status) {
   return FileIdentity{status.st_dev, status.st_ino, {}};
 }
 
-/// Of a file there is, or of a place for one; "-" is the open file `descriptor`.
+/// The identity of a file, or of a place for one; "-" is the open file `descriptor`.
 std::optional<FileIdentity> identity(const std::string& path, int descriptor) {
   struct stat status {};
   if (path == "-")

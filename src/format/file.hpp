@@ -35,8 +35,8 @@ std::string read_file(const std::string& path);
 /// "xxh3-64:<16 hex digits>" of `bytes`.
 std::string content_hash(std::string_view bytes);
 
-/// What tells a file from every other, however it is called: its device and its number there. Of
-/// one that is not there yet, those of its folder, and its name.
+/// What tells a file from every other, however it is called: its device and its number there. If it
+/// does not exist yet, those of its folder, and its name.
 struct FileIdentity {
   dev_t device = 0;
   ino_t number = 0;
@@ -44,11 +44,12 @@ struct FileIdentity {
   bool operator==(const FileIdentity&) const = default;
 };
 
-/// Of the file that is read at `path`, "-" for standard input. Nothing for what writing does not
-/// lose: a device, a pipe, a folder.
+/// The identity of the file that is read at `path`, "-" for standard input. Nothing for what
+/// writing does not lose: a device, a pipe, a folder.
 std::optional<FileIdentity> identity_of_input(const std::string& path);
 
-/// Of the file that would be written at `path`, "-" for standard output; nothing as above.
+/// The identity of the file that would be written at `path`, "-" for standard output; nothing as
+/// above.
 std::optional<FileIdentity> identity_of_output(const std::string& path);
 
 /// The place that `path` leads to: every link followed, one to a file that is not there too.

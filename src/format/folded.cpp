@@ -13,7 +13,7 @@ constexpr std::string_view plain =
     "lllnnnnnnnnnoooooooorrrrrrssssssssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
 static_assert(plain.size() == 64 + 128);
 
-/// The character at `at` of UTF-8 text, which goes on behind it.
+/// The character at `at` of UTF-8 text, which goes on after it.
 unsigned take_code(std::string_view text, std::size_t& at) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0U;

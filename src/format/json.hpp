@@ -63,7 +63,7 @@ Json files_json(const Files& files) {
   });
 }
 
-/// The same of paths and hashes that lie beside each other.
+/// The same for paths and hashes in two lists.
 inline Json files_json(const std::vector<std::string>& files,
                        const std::vector<std::string>& hashes) {
   return list_of_first(files.size(), [&](std::size_t i) -> Json {
@@ -103,8 +103,8 @@ inline Json edge_size(double value, const std::string& unit) {
   return with_unit(value * edge_factor(unit), unit == "rad" ? "deg" : unit.c_str());
 }
 
-/// At the edge: {"value", "u", "unit"}, "interval" where value ± U is none, "why" where a number is
-/// missing.
+/// At the edge: {"value", "u", "unit"}, "interval" if value ± U is not the interval, "why" if a
+/// number is missing.
 inline Json to_json(const Estimate& inside) {
   const Estimate estimate = at_edge(inside);
   Json json{{"value", number(estimate.value)}, {"u", number(estimate.u)}, {"unit", estimate.unit}};
@@ -131,7 +131,7 @@ inline Estimate estimate_from(const Json& json) {
   return estimate;
 }
 
-/// As written to a file. Bytes that are no UTF-8 (a file name may hold some) become U+FFFD.
+/// As written to a file. Bytes that are not UTF-8 (a file name may hold some) become U+FFFD.
 inline std::string json_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -7,10 +7,10 @@
 
 namespace trueaxis {
 
-/// The one of `known` that a key which is none of them may mean, or "": the same with its unit
-/// ("sigma": sigma_mm), a letter or two off, the same without what stands before it ("rpm":
-/// speed_rpm, "sigma_um": noise.sigma_um), or what the thing is called here ("sigma_um" beside
-/// noise_um, "kind" beside surface). Of equals the first.
+/// The one of `known` that an unknown key may mean, or "". It is the same with its unit ("sigma":
+/// sigma_mm), a letter or two off, or the same without what precedes it ("rpm": speed_rpm,
+/// "sigma_um": noise.sigma_um). Or it is what the thing is called here ("sigma_um" for noise_um,
+/// "kind" for surface). Of equals the first.
 std::string nearest_key(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace trueaxis

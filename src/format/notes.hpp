@@ -6,8 +6,8 @@
 
 namespace trueaxis {
 
-/// A line "note   …" of each remark, up to its first colon: what stands behind it is for those who
-/// ask for more.
+/// A line "note …" for each remark, up to its first colon: what follows is for those who ask for
+/// more.
 inline std::string notes_screen(const std::vector<std::string>& remarks) {
   std::string text;
   for (const std::string& remark : remarks)

@@ -27,7 +27,7 @@ constexpr const char* part = ".part";  // and the number of the process that wri
 
 bool lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; }
 
-/// Makes a new file beside a place, locks it and appends to `path` what makes its name new; -1: it
+/// Makes a new file next to a place, locks it and appends to `path` what makes its name new; -1: it
 /// cannot be made. Where files cannot be locked it is made all the same.
 int made_beside(std::string& path) {
   path += part + std::to_string(::getpid());
@@ -41,7 +41,7 @@ int made_beside(std::string& path) {
     struct stat status {};
     const bool taken = !lock(file) && errno == EWOULDBLOCK;
     if (!taken && ::fstat(file, &status) == 0 && status.st_nlink > 0) return file;
-    ::close(file);  // somebody took it for left over
+    ::close(file);  // another process took it for left over
   }
 }
 
@@ -247,7 +247,7 @@ void Outputs::make_folder() {
   if (error) throw InputError(folder_, cannot(error.message()));
 }
 
-/// Removes what runs that were killed have left beside a place: a file of their naming that nobody
+/// Removes what runs that were killed have left next to a place: a file of their naming that nobody
 /// holds and that is empty or begins as the result would.
 void Outputs::remove_left_over(const Place& place) const {
   const fs::path target = link_target(place.path);

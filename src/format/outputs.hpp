@@ -10,7 +10,7 @@
 
 namespace trueaxis {
 
-/// A file that is whole or not there: it is written beside its place and renamed by `commit`; what
+/// A file that is whole or not there: it is written next to its place and renamed by `commit`; what
 /// is not committed is removed, what a killed run left by the next one. A link keeps pointing to
 /// its file, a device or pipe is written as it is, "-" is standard output. A command writes through
 /// `Outputs`, which opens these.
@@ -30,14 +30,14 @@ class OutputFile {
  private:
   [[noreturn]] void fail(const std::string& why) const;
   std::string path_, place_, beside_;
-  int lock_ = -1;  ///< held on what stands beside the place: nobody writes one that is not locked
+  int lock_ = -1;  ///< held on the file next to the place: nobody writes one that is not locked
   std::ofstream file_;
 };
 
-/// All that a command reads and all that it may write, held against each other by `check` before
-/// anything is written, and then written all or nothing. A file that is read is never written, by
-/// whatever name it goes; what is there and is no earlier result of the same kind is replaced only
-/// with `force`.
+/// All that a command reads and all that it may write. `check` compares them before anything is
+/// written; then all is written or nothing. A file that is read is never written, by whatever name
+/// it goes. An existing file that is not an earlier result of the same kind is replaced only with
+/// `force`.
 ///
 ///     Outputs outputs(force);
 ///     outputs.reads(stream);
@@ -76,7 +76,7 @@ class Outputs {
   /// Makes the folder of the results now, for what must be on disk before the end.
   void make_folder();
 
-  /// A file that was named before, to be written in pieces. Nothing stands at its place yet.
+  /// A file that was named before, to be written in pieces. Nothing is at its place yet.
   OutputFile& open(const std::string& path);
   /// The same at once; nothing is done for an empty path.
   void write(const std::string& path, std::string_view content);
@@ -107,7 +107,7 @@ class Outputs {
 
 /// The schema that the file at `path` says of itself, without its version: "trueaxis.fit", or ""
 /// for a file that TrueAxis did not write or that is not there. In JSON it is the first member, in
-/// CSV a comment line `# schema: …` (a stream: `##`, which is no metadata), in HTML the meta tag
+/// CSV a comment line `# schema: …` (a stream: `##`, which is not metadata), in HTML the meta tag
 /// `generator`, in Markdown a comment, in a control's own format a comment line `// schema: …`, `;
 /// schema: …` or `( schema: …`.
 std::string schema_of_file(const std::string& path);

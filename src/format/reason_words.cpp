@@ -58,7 +58,7 @@ class Words {
  public:
   Words(const Reason& reason, Spoken references) : reason_(reason), spoken_(references) {}
 
-  /// Nothing where a place has nothing to stand in it.
+  /// Nothing if a place has nothing to fill it.
   std::optional<std::string> filled(std::string_view text) const {
     std::string out;
     for (std::size_t at = 0; at < text.size(); ++at) {

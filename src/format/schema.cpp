@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view ours = "trueaxis.";
 
-/// The name in front of the version, such as trueaxis.fit/1; empty: none stands there.
+/// The name in front of the version, such as trueaxis.fit/1; empty: there is none.
 std::string_view schema_at(std::string_view text) {
   const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", ours.size());
   const bool named = text.starts_with(ours) && end != text.npos && end > ours.size();

@@ -7,8 +7,8 @@
 
 namespace trueaxis {
 
-/// A word of a command line as a POSIX shell reads it: in single quotes where it has blanks or
-/// anything else that a shell does not take as it stands.
+/// A word of a command line as a POSIX shell reads it: in single quotes if it has blanks or
+/// anything else that a shell does not read literally.
 std::string shell_quoted(std::string_view word);
 
 /// The words with blanks between them, each quoted where need be.

@@ -14,7 +14,7 @@ inline constexpr std::size_t columns = 100;
 /// Characters that a terminal shows of UTF-8.
 std::size_t width(std::string_view text);
 
-/// `text` with blanks behind it up to `to` characters.
+/// `text` with blanks after it up to `to` characters.
 std::string padded(std::string_view text, std::size_t to);
 
 /// `head` and then `text`, broken at blanks to `to` columns; further lines start below the text.

@@ -12,7 +12,7 @@ namespace trueaxis {
 
 /// `[header]` of a job: `part`, `serial`, `operator`, `machine`, `probe`, `date`, each a text that
 /// may be missing; `date` may be a date of TOML (2026-03-14) as well. Label and text of those that
-/// are there, in this order; empty texts are left out.
+/// are there, in this order, without empty texts.
 std::vector<std::pair<std::string, std::string>> read_header(TomlTable root);
 
 /// The same as a result has it: the keys of the job with their texts.

@@ -36,9 +36,9 @@ struct Range {
 /// One table of a TOML file, read strictly. A view: cheap to copy, valid while its TomlDocument
 /// lives.
 ///
-/// Every reading call makes its key known. What is wrong (missing, wrong type, out of range) is
-/// noted as a diagnostic with line and column, the call returns the fallback (NaN, "" or 0 for a
-/// required key), and reading goes on; TomlDocument::finish() then throws everything at once.
+/// Every reading call makes its key known. What is wrong (missing, wrong type, out of range)
+/// becomes a diagnostic with line and column. The call returns the fallback (NaN, "" or 0 for a
+/// required key), and reading goes on. TomlDocument::finish() then throws everything at once.
 ///
 /// **Units in keys.** A key of a quantity is asked for with the unit inside as its suffix
 /// (`"x0_mm"`, `"half_angle_rad"`, `"delay_s"`), and the file may give it in any unit of that kind:
@@ -107,7 +107,7 @@ class TomlTable {
   /// Whether the file has `key` in any unit of its kind. Makes the key known.
   bool has(std::string_view key);
   bool has_table(std::string_view key);  ///< and it is a table
-  /// The name under which a key stands: today's, or an earlier one of the same unit, whose messages
+  /// The name of a key in the file: today's, or an earlier one of the same unit, whose messages
   /// then name today's. Both are an error.
   std::string_view name_of(std::string_view now, std::string_view before);
   /// Notes a diagnostic at `key` if the file has it, else at the table. Say what to do.
@@ -149,7 +149,7 @@ class TomlTable {
 ///     0.0); document.finish();  // throws every diagnostic, unknown keys included
 class TomlDocument {
  public:
-  /// Reads and parses a file ("-": standard input). @throws InputError if it is no TOML.
+  /// Reads and parses a file ("-": standard input). @throws InputError if it is not TOML.
   explicit TomlDocument(const std::string& path);
   /// Parses `content`; `path` names it in diagnostics and places relative file names.
   TomlDocument(std::string_view content, const std::string& path);

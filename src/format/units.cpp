@@ -127,7 +127,7 @@ std::optional<std::string> unit_of_word(std::string_view word, std::string_view 
   word = trimmed(word);
   if (word.size() > 2 && word.ends_with('.')) word.remove_suffix(1);
   const std::string key = folded(word);
-  if (word.size() == 1 && key != word) return {};  // "M" and "S" are no units
+  if (word.size() == 1 && key != word) return {};  // "M" and "S" are not units
   static const auto known = [] {
     std::map<std::string, UnitWords, std::less<>> map;
     std::vector<std::string_view> words;

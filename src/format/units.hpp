@@ -18,7 +18,7 @@ struct Unit {
   UnitKind kind;
   double factor;
   double turn = 0.0;      ///< one turn in an angle's unit
-  bool of_column = true;  ///< may stand in the header of a column
+  bool of_column = true;  ///< may be in the header of a column
   bool of_key = true;     ///< may end a key of TOML
 };
 
@@ -41,14 +41,14 @@ std::optional<NumberWithUnit> number_with_unit(std::string_view text);
 /// The same of a quantity inside (mm, rad); nothing without a unit of it.
 std::optional<double> quantity_in(std::string_view text, UnitKind kind);
 
-/// "X [mm]" cut apart; all of it is the name where no unit stands in brackets at its end.
+/// "X [mm]" cut apart; all of it is the name if no unit is in brackets at its end.
 struct NameWithUnit {
   std::string_view name;
   std::optional<std::string_view> unit;
 };
 NameWithUnit name_with_unit(std::string_view text);
 
-/// A unit as a stream writes it ("mm", "deg", "s"): of "Zoll", "µm", "°", "secondes". `language`
+/// A unit as a stream writes it ("mm", "deg", "s"), for "Zoll", "µm", "°", "secondes". `language`
 /// is that of the header: "Grad" is a degree in German alone. Nothing for any other word.
 std::optional<std::string> unit_of_word(std::string_view word, std::string_view language = "");
 

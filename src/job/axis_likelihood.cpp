@@ -21,7 +21,7 @@ constexpr double rounding_mm = 1e-7, rounding_rad = 1e-9;  // of a stream's digi
 // How far surfaces of real parts are out of their common axis: a ladder of a factor four.
 constexpr double out_of_axis_mm[] = {1e-3, 4e-3, 16e-3, 64e-3};
 constexpr double out_of_axis_rad[] = {1e-5, 4e-5, 16e-5, 64e-5};
-// And where a part stands that was clamped anew.
+// And where a part is that was clamped anew.
 constexpr double clamped_anew_mm = 1.0, clamped_anew_rad = 0.01;
 // A Gaussian with the height of the uniform law over a turn; of a datum of Z the size of a lathe.
 constexpr double any_turn_rad = 2.5066282746310002;
@@ -69,7 +69,7 @@ double middle_of(std::span<const HeldAxis> axes) {
 double log_likelihood_of(std::span<const HeldAxis> axes, std::optional<OpenMistake> open,
                          double s_mm, double s_rad) {
   const double z_mm = middle_of(axes);
-  // A common axis of which nothing is known: a kilometre and a kiloradian.
+  // A common axis of which nothing is known: a standard deviation of 1 km and 1000 rad.
   Eigen::Matrix4d weight = 1e-6 * Eigen::Matrix4d::Identity();
   Eigen::Vector4d weighted = Eigen::Vector4d::Zero();
   double sum = 0.0;

@@ -9,7 +9,7 @@
 
 namespace trueaxis {
 
-/// The axis of a reference as it is held against the others.
+/// The axis of a reference as it is compared with the others.
 struct HeldAxis {
   AxisEstimate estimate;
   double z_mid_mm = 0.0;  ///< middle of the probed length
@@ -27,8 +27,7 @@ struct OpenMistake {
 
 HeldAxis held_axis(const FitResult& fit);
 
-/// How far two axes are apart half-way between their lengths, and what chance makes of it (Eq.
-/// 131).
+/// How far two axes are apart half-way between their lengths, and how probable that is (Eq. 131).
 Disagreement difference_of(const HeldAxis& first, const HeldAxis& second, double coverage_factor);
 
 /// ln of the likelihood of the axes as those of one part, whose surfaces are as far out of a common

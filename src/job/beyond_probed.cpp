@@ -20,7 +20,7 @@ struct ProbedLine {
   double low_mm, high_mm;
 };
 
-/// What causes that the data cannot tell would add is no line's.
+/// What causes that the data cannot tell would add is not of a line.
 const FitResult& of_the_line(const PlannedJob& result, std::size_t i) {
   const bool named = i < result.diagnoses.size() && result.diagnoses[i] &&
                      result.diagnoses[i]->named.status == FitStatus::converged;

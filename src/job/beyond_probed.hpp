@@ -14,8 +14,8 @@ inline constexpr Threshold reserved_u_factor{"u", 10.0, "of the least within", "
 inline constexpr Threshold refused_u_factor{"u", 30.0, "of the least within", "8.7 lengths away"};
 
 /// u of the line that a reference gives at the worse end of the target over its least u within the
-/// probed length (Eq. 119a); of one that is in the datum, the datum's line. 1 for a plane, where
-/// there is no u, and where nothing is fixed against it.
+/// probed length (Eq. 119a). If the reference is in the datum, it is the datum's line. 1 for a
+/// plane, where there is no u, and where nothing is fixed against it.
 double u_beyond_probed(const PlannedJob& job, std::size_t reference);
 
 /// That the cut lies so far from what was probed that u grows by more than `factor`.

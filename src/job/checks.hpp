@@ -5,9 +5,9 @@
 
 namespace trueaxis {
 
-/// Asks for the stock where the target lies on the probed length of a reference of its own side
-/// (shaft or bore; a face on a face), because only then can be told what the tool meets.
-/// @throws InputError that says so, when the job does not state it.
+/// Asks for the stock if the target lies on the probed length of a reference of its own side (shaft
+/// or bore; a face on a face). Only then is it known what the tool meets. @throws InputError that
+/// says so, when the job does not state it.
 void require_stock(const PlannedJob& job);
 
 // What forbids a cut, seen from the geometry alone: the probed surface, the ball, the target and
@@ -36,17 +36,17 @@ extern const JobCheck findings_reproduced;
 Reason expected_cut(const PlannedJob& job, const CutNumbers& cut);
 
 /// The part slipped while one of the references of a datum system was probed: the others may be of
-/// the part as it stood before.
+/// the part as it was before.
 extern const JobCheck slipped_between_references;
 
 /// The first reference of a common datum that is off its axis by more than the tolerance.
 extern const JobCheck datum_members_apart;
 
-/// References beside the datum whose axes are farther off it than the tolerance.
+/// References outside the datum whose axes are farther off it than the tolerance.
 extern const JobCheck references_off_datum;
 
-/// The diagnosis moved an axis, within the cut, by more than its U against the ideal fit while a
-/// cause of it has rivals or a pattern has no cause.
+/// The diagnosis moved an axis, within the cut, by more than its U against the ideal fit. One of
+/// its causes has rival causes, or a pattern has no cause.
 extern const JobCheck axes_open;
 
 /// Readings that nobody diagnosed leave what correlates.
@@ -58,9 +58,9 @@ extern const JobCheck noise_over_stated;
 /// A bow that one manner of probing does not tell from a vibration.
 extern const JobCheck bow_or_vibration;
 
-/// A cause that is improbable by its size alone explains a finding as well as the named one and
-/// would put the axis elsewhere by so much that the cut were far out of the tolerance: how
-/// improbable it is nobody knows so well.
+/// A cause that is improbable by its size alone fits the readings like the named one. It would put
+/// the axis so far elsewhere that the cut is far out of the tolerance, and nobody knows well how
+/// improbable it is.
 extern const JobCheck improbable_and_far;
 
 /// What `axes_open` finds.

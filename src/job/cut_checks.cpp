@@ -19,7 +19,7 @@ double ball_of(const PlannedJob& result, std::size_t i) {
   return said_mm > 0.0 ? said_mm : result.streams[i].ball_radius_mm.value_or(0.0);
 }
 
-/// A surface whose radius, once the ball is taken off, is none.
+/// A surface whose radius is not positive once the ball is subtracted.
 std::optional<Reason> no_surface_behind_ball(const PlannedJob& result, std::size_t i) {
   const FitResult& fit = result.fits[i];
   if (fit.surface == SurfaceKind::plane || fit.surface == SurfaceKind::own) return {};
@@ -70,7 +70,7 @@ std::optional<Reason> not_the_stock(const PlannedJob& result, std::size_t i) {
   return reason;
 }
 
-/// Of the first reference, and only where a cut is planned.
+/// For the first reference, and only if a cut is planned.
 template <auto of_reference>
 Reasons find_met(const CheckInput& in) {
   if (!in.job.correction) return {};

@@ -8,8 +8,8 @@
 namespace trueaxis {
 namespace {
 
-/// The axis moves by what turns once a revolution, a diameter by twice that; and no less than the
-/// largest deviation is ever counted.
+/// The axis moves by what turns once per revolution, a diameter by twice that; at least the largest
+/// deviation counts.
 double diameter_mm(const Deviation& off) { return std::max(2.0 * off.once_mm, off.largest_mm); }
 
 /// The name of the key that sets the length between two places of a table.
@@ -47,7 +47,7 @@ Reasons finer_table(const Correction& correction, const ControlTable& table, dou
   return {};
 }
 
-/// More rows a revolution; none: 100000 are not enough.
+/// More rows per revolution; none: 100000 are not enough.
 Reasons more_rows(const PlannedJob& result, const ControlTable* table, double allowed_mm) {
   constexpr double most_rows = 1e5;
   const Correction& correction = *result.correction;
@@ -76,7 +76,8 @@ std::vector<CutFile> cut_files(const PlannedJob& result) {
     file.adds_mm = file.actuator_mm + file.file_mm;
     files.push_back(std::move(file));
   }
-  // Who sends X_command has the actuator's error, who follows X_fts that between the rows.
+  // A control that sends X_command has the actuator's error, one that follows X_fts that between
+  // the rows.
   CutFile table{"table.csv", actuator_mm, diameter_mm(correction.between_rows)};
   table.adds_mm = std::max(table.actuator_mm, table.file_mm);
   files.push_back(std::move(table));

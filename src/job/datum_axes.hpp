@@ -10,12 +10,12 @@ namespace trueaxis {
 
 /// What the others of the associations would give a reference, over its probed length: orthogonal,
 /// from its readings without what is not of the part (Eq. 293). Extreme associations rest on a few
-/// readings and take their noise in whole: they are stated without U. Empty: a section, a face, a
-/// gauge without a radius, several set-ups, and where the job has no axis
-/// or asks for no values of form.
+/// readings and have all of their noise: they are stated without U. Empty: a section, a face, a
+/// gauge without a radius, several set-ups, and where the job has no axis or asks for no values of
+/// form.
 std::vector<DatumAxis> datum_axes(const PlannedJob& result, std::size_t reference);
 
-/// Where the ball's centre stood at the readings that count, without what is not of the part, in
+/// Where the ball's centre was at the readings that count, without what is not of the part, in
 /// the part frame (Eqs. 1, 293): the axis of the centres is the part's.
 std::vector<Point3> datum_points(const PlannedJob& result, std::size_t reference);
 
@@ -27,9 +27,9 @@ DatumAxis datum_axis(std::span<const Point3> points_mm, Element element, Criteri
 void expect_associable(const JobReference& reference, const ProbeStream& stream);
 
 /// By how much the axis of a reference's `association` is off that of least squares, from the same
-/// readings, with the covariance that their noise gives this difference (Eq. 303), at z_ref of the
-/// fit used. Nothing where the job states none, or least squares.
-/// @throws Refusal where the readings give no such axis
+/// readings, at z_ref of the fit used. It has the covariance that their noise gives this difference
+/// (Eq. 303). Nothing where the job states none, or least squares. @throws Refusal where the
+/// readings give no such axis
 std::optional<AxisEstimate> associated_difference(const PlannedJob& result, std::size_t reference);
 
 }  // namespace trueaxis

@@ -14,7 +14,7 @@ bool is_member(const PlannedJob& result, std::size_t i) {
   });
 }
 
-/// That the coaxiality of reference i with the datum is above in 95 of 100.
+/// The coaxiality of reference i with the datum is above this with 95 %.
 double least_off_mm(const PlannedJob& result, std::size_t i) {
   const Reference reference = references_of(result)[i];
   const TargetSurface& target = *result.job.target;
@@ -32,7 +32,7 @@ std::optional<Reason> too_far(const PlannedJob& result, std::size_t i, ReasonCod
   return Reason{code, {i}, {{"off", least_mm, "mm"}}, {{"datum", result.datum->name}}};
 }
 
-/// Of the references that are in the datum, or of those that are not.
+/// For the references that are in the datum, or for those that are not.
 Reasons off_the_datum(const PlannedJob& result, bool members, ReasonCode code) {
   Reasons found;
   if (!result.datum || !result.target_axis) return found;

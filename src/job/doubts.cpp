@@ -29,7 +29,7 @@ constexpr Threshold least_angles{"angles", 7.0, "1",
                                  "eccentricity"};
 constexpr Threshold angles_apart{"apart", rad_per_deg, "rad", "angles nearer than that are one"};
 
-/// Cycles per revolution of a term at the speed and feed of a pass; none: it is no wave.
+/// Cycles per revolution of a term at the speed and feed of a pass; none: it is not a wave.
 std::optional<double> order_in(const TermValue& term, const Pass& pass) {
   const double turns_per_s = std::abs(pass.speed_rad_per_s) / two_pi;
   const double feed_mm = pass.feed_mm_per_rev * pass.c_sign;

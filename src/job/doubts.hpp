@@ -25,8 +25,8 @@ struct AxisDoubt {
 extern const AxisDoubt left_unexplained;
 
 /// All of them: a statement that the readings refute, a slip that is not sure or at an end, a move
-/// within a pass by more than U of the axis (Eq. 314), what is left unexplained, a pattern or a
-/// finding that goes with the eccentricity, angles so few that lobes are no different from one.
+/// within a pass by more than U of the axis (Eq. 314). Also an unexplained residual, a pattern or a
+/// cause that goes with the eccentricity, and angles so few that lobes look like one.
 std::span<const AxisDoubt* const> axis_doubts();
 
 /// No reference has a doubt of its axis.
@@ -51,8 +51,8 @@ std::optional<Reason> sensor_limit_of(const ProbeStream& stream);
 void withhold_axis(FitResult& fit, const std::string& why);
 void withhold_axis(Diagnosis& diagnosis, const std::string& why);
 
-// A slip near an end of a stream leaves too few readings beside it to be a finding, and where it is
-// the last end the part stands elsewhere now.
+// A slip near an end of a stream leaves too few readings next to it to be found. If it is the last
+// end, the part is elsewhere now.
 
 /// Outliers gather at an end of a pass.
 extern const AxisDoubt left_out_at_an_end;

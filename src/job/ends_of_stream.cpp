@@ -12,7 +12,7 @@
 namespace trueaxis {
 namespace {
 
-constexpr std::size_t least_end = 8;  // readings: of fewer, all must have been left out
+constexpr std::size_t least_end = 8;  // readings: with fewer, all must be excluded
 constexpr Threshold mostly{"left_out", 0.5, "of a run", "most of it"};
 constexpr Threshold gathered{"gathered", 3.0, "times elsewhere", "outliers alone lie anywhere"};
 constexpr Threshold hardly{"by_chance", 1e-4, "of streams",
@@ -21,10 +21,10 @@ constexpr double limits[] = {3.0, 4.0};  // σ
 constexpr Threshold off_by_chance{"by_chance", 1e-3, "of streams",
                                   "for both limits together, Eq. 275"};
 
-/// The longest run of readings at an end of a stream of which most were left out, and three times
-/// the share of all others; 0: outliers lie anywhere. A short one is a run where all of it was left
-/// out, which the share of all others makes of it once in 10 000 streams. `left_out(k)`: of the
-/// k-th from that end.
+/// The longest run of readings at an end of a stream of which most were excluded, and three times
+/// the share of all others; 0: outliers lie anywhere. A short run counts if all of it was excluded;
+/// the share of all others gives that once in 10 000 streams. `left_out(k)`: of the k-th from that
+/// end.
 template <typename LeftOut>
 std::size_t left_out_end(std::size_t count, LeftOut left_out) {
   double total = 0.0, here = 0.0;
@@ -42,8 +42,8 @@ std::size_t left_out_end(std::size_t count, LeftOut left_out) {
   return longest;
 }
 
-/// How many of the last eight lie beyond a limit, if that many do in no other eight and by chance
-/// hardly ever do (Eq. 275); 0: no more than elsewhere. `far`: of each reading, in time.
+/// How many of the last eight lie beyond a limit, if that many do in no other eight and noise
+/// hardly ever does it (Eq. 275); 0: no more than elsewhere. `far`: for each reading, in time.
 std::size_t far_in_last(const std::vector<bool>& far) {
   const std::size_t rest = far.size() - least_end;
   std::size_t elsewhere = 0, here = 0, window = 0, most = 0;

@@ -18,9 +18,9 @@ struct SurfaceEvidence {
   Reason why;
 };
 
-/// A face is a plane, a stream without a change of Z a section. Else a cone where its half angle
-/// is beyond 3 u and the radius changes over the probed length by more than a thousandth of the
-/// length, which is more than a slide or a worn bed makes of a cylinder; else a cylinder.
+/// A face is a plane, a stream without a change of Z a section. Else a cone if its half angle is
+/// beyond 3 u and the radius changes over the probed length by more than a thousandth of the
+/// length. That is more than a slide or a worn bed makes of a cylinder. Else a cylinder.
 SurfaceEvidence surface_by_evidence(const ProbeStream& stream);
 
 /// That the readings of a stream that is to be one cone or cylinder are of several (find_seats).

@@ -16,7 +16,7 @@ bool repeats(const Diagnosis& diagnosis, std::string_view id) {
   return effect && effect->repeats_at_tool;
 }
 
-/// What a finding may be that must not be copied into the cut.
+/// What a cause may be that must not be copied into the cut.
 struct ForbiddenCause {
   std::string effect;        ///< the most probable of them; empty: there is none
   double probability = 0.0;  ///< of all of them
@@ -33,9 +33,9 @@ ForbiddenCause forbidden_cause(const Diagnosis& diagnosis, const Finding& findin
   return out;
 }
 
-/// Why a finding must not be cut with; none: it may. A line that is free in its order fits noise a
-/// little better than the whole order beside it, so chance keeps it in the class with a small
-/// probability: what may be copied by mistake is what a go may be wrong by.
+/// Why a cause must not be cut with; none: it may. A line that is free in its order fits noise a
+/// little better than the whole order next to it. Noise therefore keeps it in the class with a
+/// small probability. What may be copied by mistake is what a go may be wrong by.
 std::optional<Reason> motion_objection(const Job& job, const Diagnosis& diagnosis,
                                        const Finding& finding) {
   const ForbiddenCause other = forbidden_cause(diagnosis, finding);
@@ -80,7 +80,7 @@ std::span<const std::string_view> repeating_effects() {
 
 namespace {
 
-/// What becomes of a wish at a finding that may be it.
+/// What becomes of a wish at a cause that may be it.
 Inclusion inclusion_of(const std::string& wish, const IdentifiedJob& job, std::size_t i,
                        const Finding& finding, const std::vector<RepeatingMotion>& motions) {
   Inclusion out{wish, job.job.references[i].name, false, false,

@@ -13,7 +13,7 @@ struct IncludedMotions {
   std::vector<Inclusion> inclusions;  ///< what became of each wish
 };
 
-/// Findings that the job asks to be put into the correction and that may be.
+/// Causes that the job asks to be put into the correction and that may be.
 IncludedMotions included_motions(const IdentifiedJob& job);
 
 }  // namespace trueaxis

@@ -46,7 +46,7 @@ std::optional<std::size_t> datum_of(const IdentifiedJob& result, const FormTask&
   return {};
 }
 
-/// Of every reference, where the job asks for values of form.
+/// For every reference, if the job asks for values of form.
 std::vector<PartForm> forms_of(const IdentifiedJob& result) {
   std::vector<PartForm> forms;
   const bool judged = std::ranges::any_of(result.job.references,

@@ -23,7 +23,7 @@ double u_radius_mm(const FitResult& fit) {
   return or_zero(fit.parameter(fit.surface == SurfaceKind::cone ? "radius_mid" : "radius").u);
 }
 
-/// Of a shaft or bore at (C, Z): outwards from the target to the probed surface.
+/// For a shaft or bore at (C, Z): outwards from the target to the probed surface.
 Place between_revolved(const FitResult& fit, const Revolved& target, double c_rad, double z_mm) {
   const Intersection probed = intersect(fit.shape, c_rad, z_mm),
                      wanted = intersect(target, c_rad, z_mm);
@@ -31,7 +31,7 @@ Place between_revolved(const FitResult& fit, const Revolved& target, double c_ra
           fit.coverage_factor * std::hypot(or_zero(fit.axis.u_at(z_mm)), u_radius_mm(fit))};
 }
 
-/// Of a face at (C, X): along Z from the target to the probed plane.
+/// For a face at (C, X): along Z from the target to the probed plane.
 Place between_faces(const FitResult& fit, const Axis& axis, double z_face_mm, double c_rad,
                     double x_mm) {
   const Axis& normal = fit.axis.axis;

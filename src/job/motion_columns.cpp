@@ -11,7 +11,7 @@ namespace {
 
 using namespace diagnose_detail;
 
-/// A surface that stands off the ideal one; a slip moves the part and changes none.
+/// A surface that is off the ideal one; a slip moves the part and changes no surface.
 bool is_form(const Effect* effect) {
   return effect != nullptr && effect->slot == Slot::part && !is_step(effect->term);
 }

@@ -17,7 +17,7 @@ constexpr std::array<double, 2> asked_by_default{1.0, 50.0};  // where a toleran
 constexpr double standard_upr[] = {500.0, 150.0, 50.0, 15.0};
 constexpr int trials_that_judge = 400, trials_that_show = 20;  // u to 3.5 and to 16 %
 constexpr int fewest_trials = 10;
-/// Readings × trials of one assessment, beyond which u is taken of fewer trials: some seconds.
+/// Readings × trials of one assessment, beyond which u comes from fewer trials: some seconds.
 constexpr double most_work = 2e7;
 /// Readings: more take longer than all else of a job, and only a tolerance is worth that.
 constexpr std::size_t most_to_show = 20'000, most_to_judge = 2'000'000;

@@ -11,11 +11,11 @@
 
 namespace trueaxis {
 
-/// What a finding is of, by its class: form of the part, motion of anything else, or either.
+/// What a cause belongs to, by its class: form of the part, motion of anything else, or either.
 enum class FindingIsOf { part, motion, open };
 FindingIsOf is_of(const Diagnosis& diagnosis, const Finding& finding);
 
-/// A finding's term over the readings, as it was fitted.
+/// A cause's term over the readings, as it was fitted.
 struct MotionColumns {
   const Finding* finding = nullptr;
   FindingIsOf of = FindingIsOf::open;
@@ -24,12 +24,12 @@ struct MotionColumns {
   std::vector<double> correlation;              ///< of these, row-major
 };
 
-/// Terms of findings over all readings of a stream, about the surface that was found.
+/// Terms of causes over all readings of a stream, about the surface that was found.
 std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
                                           std::span<const Finding* const> findings, double ball_mm);
 
-/// The readings of a stream that count, and what its findings do to these that are not, or may not
-/// be, of the part.
+/// The readings of a stream that count, and what causes do to them that are not, or may not be, of
+/// the part.
 class PartReadings {
  public:
   PartReadings(const DiagnosedStream& given, double ball_mm);
@@ -38,7 +38,7 @@ class PartReadings {
   const std::vector<MotionColumns>& columns() const { return columns_; }
   std::size_t left_out() const { return left_out_; }
 
-  /// Without the findings that are not of the part, and without those that may be either (Eq. 290).
+  /// Without the causes that are not of the part, and without those that may be either (Eq. 290).
   ProbeStream less(bool open) const;
 
  private:

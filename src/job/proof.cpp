@@ -28,7 +28,7 @@ AxisCovariance noise_of(const PlannedJob& result, std::size_t i) {
   options.influences.clear();
   const FitResult& used = fit_used(result, i);
   AxisCovariance noise = fit(result.streams[i], options).axis.covariance;
-  // An extended model has its own σ and widening; beyond that its covariance holds what rivals
+  // A final axis has its own σ and widening; beyond that its covariance holds what other models
   // leave.
   const double ideal = result.fits[i].sigma_mm * result.fits[i].u_factor;
   const double ratio = ideal > 0.0 ? used.sigma_mm * used.u_factor / ideal : 1.0;

@@ -28,8 +28,8 @@ double freedom_of(const FitResult& fit) {
   return std::max(1.0, free / (fit.u_factor * fit.u_factor));
 }
 
-/// A slip may have turned the part as well, unseen: its axis then leans elsewhere by the turn. Of
-/// turns log-uniform over the sizes of the catalogue the root mean square is taken.
+/// A slip may have turned the part as well, unseen: its axis then leans elsewhere by the turn. It
+/// is the root mean square of turns log-uniform over the sizes of the catalogue.
 AxisEstimate axis_of(const FitResult& fit, const std::optional<Diagnosis>& diagnosis) {
   AxisEstimate out = fit.axis;
   const Finding* slip = diagnosis ? diagnosis->slip() : nullptr;

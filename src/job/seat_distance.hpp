@@ -24,12 +24,12 @@ struct SeatDistance {
   std::array<AxisOffset, 2> worst;          ///< the larger of the ends of each seat
   double tilt_rad = 0.0, u_tilt_rad = 0.0;  ///< angle of the axes
 
-  /// ISO 1101, a diameter: of a seat's axis about the other's, 2 × its worst offset.
+  /// ISO 1101, a diameter: 2 × the worst offset of a seat's axis from the other's.
   double coaxiality_mm(std::size_t seat) const { return 2.0 * worst[seat].size_mm(); }
   double u_coaxiality_mm(std::size_t seat) const { return 2.0 * worst[seat].u_mm; }
 };
 
-/// Whether the axis of a reference may be stated: its fit converged, it did not slip unsurely, and
+/// Whether the axis of a reference may be stated: its fit converged, no unsure slip was found, and
 /// nothing shows the streams to be read wrongly.
 bool axis_is_known(const PlannedJob& result, std::size_t reference);
 

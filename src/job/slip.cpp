@@ -55,7 +55,7 @@ Reason slipped(std::size_t i, const Finding& finding, double k, ReasonCode code)
   return reason;
 }
 
-/// As a member of the class of another name.
+/// As a rival cause of another name.
 std::optional<Reason> possible(const Diagnosis& diagnosis, std::size_t i, const Finding& finding) {
   for (const Rival& rival : finding.rivals)
     if (is_slip(diagnosis, rival.effect))

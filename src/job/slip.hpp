@@ -5,17 +5,17 @@
 
 namespace trueaxis {
 
-/// No slip that is not sure, after which no table may be cut: one that is merely in a finding's
-/// class, that is not the only one, that has rivals, or beside which a pattern is not explained.
+/// No slip that is not sure, after which no table may be cut. Such a slip is merely in the class of
+/// another cause, is not the only one, has rival causes, or leaves a pattern that is not explained.
 /// One that a reference's diagnosis names goes before one in a class.
 extern const JobCheck part_slipped;
 
 /// That the part moved, when and by how much, where that is sure: the axis is that of the part as
-/// it now stands.
+/// it is now.
 Reasons moved_part(const IdentifiedJob& job);
 
-/// One slip, its sizes shown by what was read after it, no rival of it, no finding that may be
-/// another, and nothing unexplained.
+/// One slip, its sizes shown by what was read after it, without rival causes, without a cause that
+/// may be another slip, and nothing unexplained.
 bool is_sure_slip(const Diagnosis& diagnosis);
 
 }  // namespace trueaxis

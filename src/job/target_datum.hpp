@@ -14,7 +14,7 @@ namespace trueaxis {
 /// Nothing where the job names none. @throws Refusal where the readings leave the axis open
 std::optional<TargetDatum> target_datum(const PlannedJob& job);
 
-/// What the target axis is solved for and a tolerance is held against: the datum where the job
+/// What the target axis is solved for and a tolerance is compared with: the datum where the job
 /// names one, else the references themselves.
 std::vector<Reference> judged(const PlannedJob& job, const std::vector<Reference>& references);
 

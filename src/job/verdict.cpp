@@ -106,7 +106,7 @@ void decide_by_tolerance(const PlannedJob& result, double tolerance_mm, Verdict&
   verdict.reasons = {std::move(reason)};
 }
 
-/// Of numbers that keep the tolerance: what makes no go of them, or one with reservations.
+/// For numbers that keep the tolerance: what forbids the go, or makes it one with reservations.
 void decide_about_go(const PlannedJob& result, double tolerance_mm, Verdict& verdict) {
   Reasons open = first_found(Weight::leaves_open, CheckedAt::tolerance, {result, verdict});
   if (const Reasons axes = open_axes(result); open.empty() && !axes.empty()) {

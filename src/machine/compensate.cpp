@@ -77,7 +77,7 @@ struct Solution {
 bool direction_met(const Left& left) { return left.direction.norm() <= exact_direction; }
 
 /// Newton's method with a Jacobian that is kept as long as it serves: the errors turn it by some
-/// 1e-4, so that each step takes away four digits of what is left. Where a direction is left it is
+/// 1e-4, so that each step removes four digits of the rest. Where a direction is left it is
 /// the Jacobian that says where it is least, and only a fresh one is right.
 Solution solve(const Problem& problem) {
   const Compiled& machine = problem.machine;
@@ -136,7 +136,7 @@ CompensatedPosition result_of(const MachineModel& model, const ToolPose& target,
   return result;
 }
 
-/// Where an axis leaves its limits the result is no result.
+/// If an axis leaves its limits, the result does not count.
 void refuse_outside(CompensatedPosition& result, const Machine& machine) {
   for (const MachineAxis& axis : machine.axes) {
     if (within(axis, result.axes[index_of(axis.name)])) continue;

@@ -21,7 +21,7 @@ CompensatedPosition compensate_by_differential(const MachineModel& model,
                                                const AxisPositions& commanded,
                                                const Setting& setting, const HeldAxes& held);
 
-/// The axes of `compensate_by_differential`, without what is left with them.
+/// The axes of `compensate_by_differential`, without the residual with them.
 AxisPositions axes_by_differential(const MachineModel& model, const AxisPositions& commanded,
                                    const Setting& setting, const HeldAxes& held = {});
 

@@ -11,10 +11,10 @@
 ///
 ///     tool in part = (W0 D)⁻¹ · P₁ · P₂ … Pₙ · S · Tr(tip)       (product of exponentials)
 ///
-/// with P = A for an axis of the tool and A⁻¹ for one of the workpiece, each the motion along or
-/// about the axis and the motion of its component errors Ê = Tr(r) E^± Tr(−r), in the order that
-/// the inversion leaves: errors first for a linear axis of the workpiece and a rotary one of the
-/// tool.
+/// with P = A for an axis of the tool and A⁻¹ for one of the workpiece. Each has the motion along
+/// or about the axis and the motion of its component errors Ê = Tr(r) E^± Tr(−r), in the order that
+/// the inversion leaves. Errors come first for a linear axis of the workpiece and a rotary one of
+/// the tool.
 namespace trueaxis {
 
 struct Joint {
@@ -25,7 +25,7 @@ struct Joint {
   std::size_t axis = 0;
   bool rotary = false;
   bool errors_first = false;
-  bool inverted = false;  ///< Ê is E⁻¹: of the workpiece, given as the carriage's own deviation
+  bool inverted = false;  ///< Ê is E⁻¹: for the workpiece, given as the carriage's own deviation
   bool turns = false;     ///< some component is an angle
   Eigen::Vector3d direction, point;  ///< nominal line
   Eigen::Vector3d shift, tilt;       ///< location errors: of the point; of the direction

@@ -13,20 +13,20 @@ class CorrectionStep {
   CorrectionStep(const MachineModel::Compiled& machine, const ToolMotion& motion,
                  const HeldAxes& held);
 
-  /// What is left of a tool: of its tip in mm, of its direction as the part of the difference that
+  /// The residual of a tool: the tip's in mm, and the part of the difference of the directions that
   /// lies across the target's.
   struct Left {
     Eigen::Vector3d tip, direction;
   };
 
-  /// The total change of the axes from where they were commanded, given the `change` so far and
-  /// what is left with it. With linear axes that span space the tip is exact by them and the rotary
-  /// ones that are not held make the direction least, each within `largest_rad` of where it was
-  /// commanded; of several such the one with the least rotary change. Where they turn the direction
-  /// by less than a twentieth of their own turn (a pole), the part of the error that only this turn
-  /// would correct counts by (20 σ)², so that their change falls off to nothing at the pole with
-  /// what it gains. With fewer linear axes the tip alone is looked at, of several the least change
-  /// in mm and degrees.
+  /// The total change of the axes from where they were commanded, given the `change` so far and the
+  /// residual with it. Linear axes that span space make the tip exact. The rotary ones that are not
+  /// held make the error of the direction least, each within `largest_rad` of where it was
+  /// commanded; of several such the one with the least rotary change. At a pole they turn the
+  /// direction by less than a twentieth of their own turn. The part of the error that only this
+  /// turn would correct then counts by (20 σ)². Their change therefore falls off to nothing at the
+  /// pole with what it gains. With fewer linear axes the tip alone is looked at, of several the
+  /// least change in mm and degrees.
   AxisPositions total(const AxisPositions& change, const Left& left, double largest_rad) const;
 
   /// Whether some error of direction is not worth its correction: near a pole.
@@ -51,7 +51,7 @@ class CorrectionStep {
   Columns linear_, rotary_;
   bool spans_ = false, near_pole_ = false;
   Eigen::Matrix3d tip_inverse_;
-  Eigen::Matrix3d by_tip_;  ///< direction that the linear axes turn as the tip is taken along
+  Eigen::Matrix3d by_tip_;  ///< direction that the linear axes turn as the tip moves with them
   SmallMatrix turning_;     ///< direction by the rotary axes, the tip held
   Eigen::Matrix3d worth_;   ///< near a pole: the part of an error of direction that is corrected
 };

@@ -17,8 +17,8 @@ constexpr double reached_mm = 1e-6;  ///< of a tip that fewer than three linear 
 
 using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>;
 
-/// The linear axes at these rotary positions: where the tip goes with them, and what is left to the
-/// tip where they stand. They enter the tip linearly.
+/// The linear axes at these rotary positions: where the tip goes with them, and the distance to the
+/// tip where they are. They enter the tip linearly.
 struct LinearProblem {
   LinearProblem(const Compiled& machine, const Vector3d& tip, const AxisPositions& axes,
                 const Setting& setting) {

@@ -7,7 +7,7 @@
 
 namespace trueaxis {
 
-/// Rounding of a position that stands on its limit: 1e-9 mm, 1e-9 deg.
+/// Rounding of a position that is on its limit: 1e-9 mm, 1e-9 deg.
 double limit_slack(const MachineAxis& axis);
 
 bool within(const MachineAxis& axis, double position);

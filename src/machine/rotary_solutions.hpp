@@ -12,7 +12,7 @@ namespace trueaxis {
 /// Positions of the rotary axes that give the tool a direction.
 struct RotarySolution {
   AxisPositions axes{};             ///< the linear ones at 0
-  std::optional<std::size_t> free;  ///< an axis that may stand anywhere: a pole
+  std::optional<std::size_t> free;  ///< an axis that may be anywhere: a pole
 };
 
 /// All of one turn: of the chain exp(q₁ u₁) … exp(qₘ uₘ) t = d with t the tool's direction, d the

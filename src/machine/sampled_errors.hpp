@@ -19,9 +19,9 @@ struct SampledErrors {
 
 /// Every axis that has component errors, in the order X … C, with the sign asked for: where it is
 /// not the model's own, E of an axis of the workpiece is inverted at every position, exactly. The
-/// positions are those of the tables, and of anything that is no table `points` over the limits of
-/// the axis (a rotary axis without limits: one turn). @throws InputError for a linear axis without
-/// limits whose errors are no tables.
+/// positions are those of the tables, and for anything that is not a table `points` over the limits
+/// of the axis (a rotary axis without limits: one turn). @throws InputError for a linear axis
+/// without limits whose errors are not tables.
 std::vector<SampledErrors> sample_components(const Machine& machine, const ErrorModel& errors,
                                              ErrorSign sign, int points);
 

@@ -40,7 +40,7 @@ Screw of_errors(const Motion& frame, const Joint& joint, const Vector3d& pivot,
   return screw_in(frame, pivot, sign * errors.shift, sign * errors.rotation);
 }
 
-/// `frame` behind the joint with its errors: frame · P.
+/// `frame` after the joint with its errors: frame · P.
 Motion actual_step(const Motion& frame, const Joint& joint, const AxisPositions& axes) {
   const double position = joint.position(axes);
   if (joint.components.empty()) return joint.actual(frame, position);

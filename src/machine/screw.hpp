@@ -7,7 +7,7 @@
 
 namespace trueaxis {
 
-/// A velocity of a body: of its point that is at the origin of the part just then, and about it.
+/// A velocity of a body: that of its point at the origin of the part just then, and about it.
 struct Screw {
   Eigen::Vector3d v = Eigen::Vector3d::Zero(), w = Eigen::Vector3d::Zero();
 
@@ -64,7 +64,7 @@ Screw linear_error_screw(const MachineModel::Compiled& machine, const AxisPositi
 /// errors EX. EY. EZ. EA. EB. EC. of a joint, then its location errors X0. … C0.
 using UnitTips = Eigen::Matrix<double, 3, 12>;
 
-/// Of every joint of the chain, of the spindle and of the workpiece.
+/// For every joint of the chain, the spindle and the workpiece.
 std::vector<UnitTips> unit_tips(const MachineModel::Compiled& machine, const AxisPositions& axes,
                                 const Setting& setting);
 

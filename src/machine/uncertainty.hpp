@@ -36,7 +36,7 @@ class TipUncertainty {
 
  private:
   struct Amount {
-    std::size_t joint = 0;   ///< in the chain, or behind it: spindle, workpiece
+    std::size_t joint = 0;   ///< in the chain, or after it: spindle, workpiece
     std::size_t column = 0;  ///< of the joint's unit errors
     ErrorFunction function;
   };

@@ -46,8 +46,8 @@ Frames frames_of(const DenavitHartenbergChain& chain, bool with_errors) {
   return frames;
 }
 
-/// The rotation vector w with w[own] = 0 that turns u into v, by Newton's method from w = 0: what
-/// is left is turned by its own rotation vector, as far as the two free components can.
+/// The rotation vector w with w[own] = 0 that turns u into v, by Newton's method from w = 0: the
+/// rest is turned by its own rotation vector, as far as the two free components can.
 Vector3d tilt_between(const Vector3d& u, const Vector3d& v, Eigen::Index own, char letter) {
   Vector3d w = Vector3d::Zero();
   const Eigen::Index first = (own + 1) % 3, second = (own + 2) % 3;

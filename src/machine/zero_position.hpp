@@ -25,7 +25,7 @@ struct DenavitHartenbergChain {
 };
 
 /// The lines of the axes, the gauge point (origin of the last frame) and the tool's direction in
-/// the frame of the part, all variables at 0. The tip stands at + length along z of the last frame,
+/// the frame of the part, all variables at 0. The tip is at + length along z of the last frame,
 /// so that the direction from tip to holder is −z.
 void to_zero_position(const DenavitHartenbergChain& chain, Machine& machine);
 

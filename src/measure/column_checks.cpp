@@ -44,7 +44,7 @@ void for_each_run(const ProbeStream& stream, const Use& use) {
   use(run);
 }
 
-/// Whether the value is met by several long runs: a sensor at its limit, once a revolution.
+/// Whether the value is met by several long runs: a sensor at its limit, once per revolution.
 bool saturates(const ProbeStream& stream, const Run& longest) {
   std::size_t count = 0;
   for_each_run(stream, [&](const Run& one) {

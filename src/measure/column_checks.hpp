@@ -9,17 +9,18 @@
 
 namespace trueaxis {
 
-inline constexpr std::size_t shown_run = 8;      ///< readings that show a pattern
-inline constexpr double few_at_a_limit = 5.0;    ///< readings at an extreme that are chance
+inline constexpr std::size_t shown_run = 8;    ///< readings that show a pattern
+inline constexpr double few_at_a_limit = 5.0;  ///< readings at an extreme that may be a coincidence
 inline constexpr double more_at_a_limit = 12.0;  ///< as above, of the readings of any value
 inline constexpr double near_steps = 3.0;        ///< steps within which a value is where it belongs
 
 /// Median of the steps from row to row; 0: a column of one row.
 double usual_step(const std::vector<double>& column);
 
-/// A run of readings in which X_M stays the same while C turns by 60° and more, longer than chance
-/// makes once in 1000 streams whose neighbours repeat as often as these; empty: there is none.
-/// A limit of the sensor that is met again and again is saturation, which the diagnosis handles.
+/// A run of readings in which X_M stays the same while C turns by 60° and more; empty: there is
+/// none. It is longer than noise makes once in 1000 streams whose neighbours repeat as often as
+/// these. A limit of the sensor that is met again and again is saturation, which the diagnosis
+/// handles.
 std::string stuck_probe(const ProbeStream& stream);
 
 /// Readings at the very extremes of a stream that is not empty; a sensor at the end of its range

@@ -13,7 +13,7 @@
 namespace trueaxis {
 namespace {
 
-// Where a pass column cuts, its net travel says the senses: less than this is none.
+// If a pass column cuts, its net travel gives the senses, if it is more than this.
 constexpr double least_turn_rad = 1e-3 * two_pi;
 constexpr double least_feed_mm = 5e-3;
 

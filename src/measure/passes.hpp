@@ -8,15 +8,15 @@
 
 namespace trueaxis {
 
-/// A maximal run of one set-up with the same signs of C and Z feed (zero is a sign) and, where the
-/// stream has t, a spindle speed constant within 1 %.
+/// A maximal run of one set-up with the same signs of C and Z feed (zero is a sign). If the stream
+/// has t, its spindle speed is constant within 1 %.
 struct Pass {
   std::size_t begin = 0, end = 0;  ///< readings [begin, end)
   int setup = 0;
   int c_sign = 0, feed_sign = 0;  ///< -1, 0, +1
   double speed_rad_per_s = 0.0;   ///< signed like C; 0 where the stream has no t
   double feed_mm_per_rev =
-      0.0;  ///< dZ per turn, signed like feed_sign; 0 in a dwell or a stationary capture
+      0.0;  ///< dZ per revolution, signed like feed_sign; 0 in a dwell or a stationary capture
   double readings_per_revolution = 0.0;  ///< mean; 0 where C stands still
 };
 

@@ -25,16 +25,16 @@ struct StepSigns {
 /// 5 µm per revolution counts as none.
 ///
 /// A feed step four times longer than all feed within nearly a turn on both sides is a positioning
-/// move; windows end at it. A rest may so reach a few readings into the feed beside it. Readings
+/// move; windows end at it. A rest may so reach a few readings into the feed next to it. Readings
 /// that go along Z while C stays within 1e-4 rad are at rest in C.
 StepSigns find_step_signs(const ProbeStream& stream, std::size_t begin, std::size_t end);
 
 /// Where a rotation changes its speed by more than 1 %: the readings that start a new speed.
 ///
-/// Speeds are taken over whole revolutions, so sampling jitter and a speed that swings once per
-/// turn do not count. A change is a split of the revolutions into two groups whose means differ by
-/// more than 1 % and by more than five standard errors of their scatter. A change inside a
-/// revolution is placed where the two lines C(t) meet; a run-up of several revolutions is a speed
+/// Speeds are over whole revolutions, so sampling jitter and a speed that swings once per
+/// revolution do not count. A change is a split of the revolutions into two groups whose means
+/// differ by more than 1 % and by more than five standard errors of their scatter. A change inside
+/// a revolution is placed where the two lines C(t) meet; a run-up of several revolutions is a speed
 /// of its own; a single revolution at either end of the pass is not.
 std::vector<std::size_t> find_speed_changes(std::span<const double> c_rad,
                                             std::span<const double> time_s);

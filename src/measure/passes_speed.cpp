@@ -62,7 +62,7 @@ class MeanChanges {
     return squares_[end] - squares_[begin] - sum * sum / static_cast<double>(end - begin);
   }
 
-  /// The best split of [begin, end), or 0 if it is no change.
+  /// The best split of [begin, end), or 0 if it is not a change.
   std::size_t split(std::size_t begin, std::size_t end) const {
     if (end - begin < 3) return 0;
     std::size_t best = 0;
@@ -126,7 +126,7 @@ std::vector<SpeedRun> speed_runs(const std::vector<std::size_t>& splits, std::si
 }
 
 /// Time at which the line through the first run's whole turns meets that of the second. The
-/// revolution beside the change is left out where there are more.
+/// revolution next to the change does not count if there are more.
 double meeting_time(const std::vector<double>& times, const SpeedRun& before,
                     const SpeedRun& after) {
   const std::size_t b1 = before.size() > 1 ? before.end - 1 : before.end;

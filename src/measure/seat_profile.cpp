@@ -31,7 +31,7 @@ std::vector<std::size_t> along_z(const ProbeStream& stream) {
   return order;
 }
 
-/// Readings that stand at one Z each; empty: there are no sections.
+/// Readings at one Z each; empty: there are no sections.
 std::vector<std::vector<std::size_t>> sections_of(const ProbeStream& stream,
                                                   const std::vector<std::size_t>& order) {
   std::vector<std::vector<std::size_t>> groups;
@@ -62,7 +62,7 @@ double feed_mm(const ProbeStream& stream) {
   return feeds.empty() ? 0.0 : median(std::move(feeds));
 }
 
-/// Readings of one feed of Z each, or of a fiftieth of the length where the spindle stands while
+/// Readings of one feed of Z each, or of a fiftieth of the length if the spindle is at rest while
 /// the slide feeds.
 std::vector<std::vector<std::size_t>> turns_of(const ProbeStream& stream,
                                                const std::vector<std::size_t>& order,

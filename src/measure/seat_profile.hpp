@@ -33,7 +33,7 @@ struct RobustCircle {
 
 RobustCircle robust_circle(const ProbeStream& stream, const std::vector<std::size_t>& readings);
 
-/// Turns that are covered by less than two thirds of C have no radius and are left out.
+/// Turns that are covered by less than two thirds of C have no radius and do not count.
 SeatProfile seat_profile(const ProbeStream& stream);
 
 }  // namespace trueaxis

@@ -24,8 +24,8 @@ struct Stretches {
 bool find_break(const SeatProfile& profile, const Stretch& before, const Stretch& after,
                 SeatBreak& out);
 
-/// The profile as the fewest straight lines that its noise allows, put together again where the
-/// break between two of them is too small for a shoulder, or bends as the lines themselves do.
+/// The profile as the fewest straight lines that its noise allows. Two of them become one if the
+/// break between them is too small for a shoulder, or bends as the lines themselves do.
 Stretches straight_stretches(const SeatProfile& profile);
 
 }  // namespace trueaxis

@@ -50,7 +50,7 @@ struct Seats {
 /// of a face, of several clampings, or without turns or sections along Z has none.
 Seats find_seats(const ProbeStream& stream);
 
-/// The readings of a stretch, every column; the stream says in `read_as` what was left out.
+/// The readings of a stretch, every column; the stream says in `read_as` what was excluded.
 /// @throws InputError where none lies in it
 ProbeStream within(const ProbeStream& stream, const ZRange& range);
 

@@ -66,7 +66,7 @@ double squares_about(const Eigen::MatrixXd& columns, const Eigen::MatrixX2d& cen
   return (centres - linear::product(columns, model)).squaredNorm();
 }
 
-/// Variance of a coordinate by second differences: what goes to and fro is no step.
+/// Variance of a coordinate by second differences: what goes to and fro is not a step.
 double variance_of_neighbours(const Eigen::MatrixX2d& centres) {
   const Eigen::Index n = centres.rows() - 2;
   const Eigen::MatrixX2d second =
@@ -83,7 +83,7 @@ Eigen::VectorXd scaled(Eigen::VectorXd column) {
                     : Eigen::VectorXd::Zero(column.size());
 }
 
-/// The step in one run of turns: a line along Z and a drift in time are no step, nor is a bend.
+/// The step in one run of turns: a line along Z and a drift in time are not steps, nor is a bend.
 std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm) {
   const auto n = static_cast<Eigen::Index>(run.size());
   Eigen::MatrixX2d centres(n, 2);

@@ -32,19 +32,18 @@ struct TurnCentres {
 /// Values that are not finite do not count. Lobes move none of them, and count in u.
 TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm);
 
-/// By how much the centres scatter beyond their u, √(χ²/ν) (Birge 1932); 1 if chance does so once
-/// in 1000 streams. Eq. 313.
-/// @param lines what a fit took out of the centres: parameters
+/// By how much the centres scatter beyond their u, √(χ²/ν) (Birge 1932); 1 if noise does so once in
+/// 1000 streams. Eq. 313. @param lines what a fit took out of the centres: parameters
 double centres_spread(const TurnCentres& centres, std::size_t parameters);
 
 /// A part that moved at one reading.
 struct CentreStep {
-  std::size_t reading = 0;  ///< the first after it, to a turn
+  std::size_t reading = 0;  ///< the first after it, to within one turn
   double size_mm = 0.0;
 };
 
-/// The step after which the centres lie on another line, where it explains three quarters of their
-/// scatter about one line, and more than a bend with as many parameters does (Eq. 314). None: the
+/// The step after which the centres lie on another line (Eq. 314). It explains three quarters of
+/// their scatter about one line, and more than a bend with as many parameters does. None: the
 /// centres lie on one line, or on a curve.
 std::optional<CentreStep> find_centre_step(const TurnCentres& centres);
 

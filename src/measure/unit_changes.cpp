@@ -73,8 +73,8 @@ std::optional<UnitChange> way_changes_unit(const std::vector<double>& column, bo
   return {};
 }
 
-/// Of readings: a turn is a unit times the turn before, to what two turns before differ by. A seat
-/// of twice the radius has no twice the eccentricity.
+/// For readings: a turn is a unit times the turn before, within the difference of the two turns
+/// before. A seat of twice the radius has no twice the eccentricity.
 std::optional<UnitChange> reading_changes_unit(const ProbeStream& stream) {
   const std::vector<double>& x = stream.reading_mm;
   if (stream.kind == StreamKind::face || stream.indication == Indication::relative) return {};

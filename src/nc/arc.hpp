@@ -23,7 +23,7 @@ struct Arc {
 };
 
 /// Points within an arc, so that its chords stay within `tolerance_mm` of it; the ends are not
-/// among them. Where the arc is none, `trouble` says why and what to do.
+/// among them. If it is not an arc, `trouble` says why and what to do.
 std::vector<AxisValues> chords_of(const Arc& arc, double tolerance_mm, std::string& trouble);
 
 }  // namespace trueaxis::nc

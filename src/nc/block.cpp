@@ -10,7 +10,7 @@
 namespace trueaxis::nc {
 namespace {
 
-/// A number as a code in tenths (G43.4: 434); -1 where it is none.
+/// A number as a code in tenths (G43.4: 434); -1 if it is not a code.
 int tenths_of(double number) {
   const double tenths = 10.0 * number;
   if (!(tenths >= 0.0 && tenths < 1e6)) return -1;
@@ -101,7 +101,7 @@ class Sorter {
     if (known) block_.named |= only(axis);
   }
 
-  /// Letters that are parameters stand beside the code that they are of.
+  /// Letters that are parameters are next to their code.
   void check_use(const Word& word) {
     static constexpr std::string_view always = "NGMFSTHOXYZABCUVW";
     if (always.find(word.letter) != std::string_view::npos) return;

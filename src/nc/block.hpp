@@ -30,7 +30,7 @@ struct Block {
   bool has_m(int m_code) const;
 };
 
-/// What a reader of one block must know: axes of the machine, whether arcs are taken.
+/// What a reader of one block must know: axes of the machine, whether arcs are allowed.
 struct BlockRules {
   AxisSet axes = all_axes;
   bool arcs = false;

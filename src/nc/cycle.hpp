@@ -32,7 +32,7 @@ struct CycleStep {
 /// The moves of a cycle, as LinuxCNC makes them: up to R where the tool is below it, above the
 /// hole, to R, down, back. G83 goes back to R after every Q and down again to 0.254 mm above where
 /// it was. The first of them goes above the first hole or up to R.
-/// @param trouble why it is none, and what to do
+/// @param trouble why it is not a cycle, and what to do
 std::vector<CycleStep> steps_of(const Cycle& cycle, std::string& trouble);
 
 }  // namespace trueaxis::nc

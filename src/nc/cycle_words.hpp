@@ -21,7 +21,7 @@ class CycleWords {
   /// Takes the words of a block in; whether it makes the cycle's moves.
   bool take(const Block& block, const ModalState& state, const std::vector<Word>& of_program);
 
-  /// Why the block is no cycle; empty: it is.
+  /// Why the block is not a cycle; empty: it is.
   /// @param from words in force before the block
   std::string trouble(const Block& block, const ModalState& state, const AxisValues& from,
                       AxisSet axes) const;

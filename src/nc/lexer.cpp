@@ -29,7 +29,7 @@ class LineReader {
     std::string why;
   };
 
-  /// Everything that cannot be read; what follows a value that is no number is read on.
+  /// Everything that cannot be read; reading goes on after a value that is not a number.
   std::vector<Trouble> read() {
     line_.first_word = static_cast<std::uint32_t>(words_.size());
     skip_blanks();
@@ -112,7 +112,7 @@ class LineReader {
     words_.push_back(word);
   }
 
-  /// "e5", "E-3" right behind a number.
+  /// "e5", "E-3" right after a number.
   bool is_exponent() const {
     if (upper_case(peek()) != 'E' || at_ + 1 >= line_.end) return false;
     const char next = text_[at_ + 1];

@@ -12,11 +12,11 @@ namespace trueaxis::nc {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// A letter and its number, as they stand in the text: `letter_at` is the place of the letter,
+/// A letter and its number, as they are in the text: `letter_at` is the place of the letter,
 /// [number_begin, end) that of the number with its sign.
 struct Word {
   char letter = 0;            ///< upper case
-  std::uint8_t decimals = 0;  ///< digits behind the point
+  std::uint8_t decimals = 0;  ///< digits after the point
   std::uint32_t letter_at = 0, number_begin = 0, end = 0;
   double number = 0.0;  ///< as written, in the program's unit
 };
@@ -37,7 +37,7 @@ struct Lexed {
 };
 
 /// Takes a program apart: words, comments `( )` and `;`, `/` (and a digit) at the start, `%` lines;
-/// what stands behind the second `%` is no program and has no words. What cannot be read is added
+/// anything after the second `%` is not a program and has no words. What cannot be read is added
 /// to `wrong`, and the rest of that line is left.
 Lexed lex(std::string_view text, const std::string& file, std::vector<Diagnostic>& wrong);
 

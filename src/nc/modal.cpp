@@ -84,7 +84,7 @@ void apply_g(ModalState& state, int g_tenths) {
                                        : LengthOffset::none;
       break;
     case Group::cycle:
-      // Controls differ in what goes on after G80: the motion must be said.
+      // Controls differ in what goes on after G80: the motion must be given.
       if (g_tenths == 800 && state.cycle != 0) state.motion = Motion::none;
       state.cycle = static_cast<std::uint8_t>(g_tenths == 800 ? 0 : g_tenths / 10);
       break;

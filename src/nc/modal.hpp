@@ -68,7 +68,7 @@ std::string_view why_not_m(int m);
 
 /// M codes that act after the block's move on every control: M0 M1 M2 M30 M60 M99.
 bool stops(int m);
-/// M codes that switch on before or with the block's move and may be said twice: M3 M4 M7 M8. (Off,
+/// M codes that switch on before or with the block's move and may occur twice: M3 M4 M7 M8. (Off,
 /// M5 and M9, is after the move by ISO 6983-1 and before it on LinuxCNC.)
 bool starts(int m);
 

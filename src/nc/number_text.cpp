@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<double, 16> power_of_ten = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                  1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 constexpr double exact_integers = 4503599627370496.0;  // 2^52: halves are still seen below it
-using Digits = std::array<char, 600>;                  // 309 before the point, 255 behind it
+using Digits = std::array<char, 600>;                  // 309 before the point, 255 after it
 
 std::size_t print(Digits& digits, double value, int decimals) {
   const auto [end, wrong] = std::to_chars(digits.data(), digits.data() + digits.size(), value,

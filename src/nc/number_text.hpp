@@ -5,10 +5,10 @@
 
 namespace trueaxis::nc {
 
-/// The number nearest to `value` that has `decimals` digits behind the point; never -0.
+/// The number nearest to `value` that has `decimals` digits after the point; never -0.
 double rounded(double value, int decimals);
 
-/// Half a unit of the last of `decimals` digits behind the point.
+/// Half a unit of the last of `decimals` digits after the point.
 double half_of(int decimals);
 
 /// Appends a number that was `rounded` to `decimals`, all of them written and no exponent.

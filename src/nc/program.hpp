@@ -15,7 +15,7 @@ namespace trueaxis::nc {
 /// What the words X Y Z of a program are: positions of the axes, or of the tool's tip.
 enum class PositionMode : std::uint8_t { axes, tip };
 
-/// What a reader must be told of the machine, which this room does not know.
+/// What a reader must know of the machine, which this room does not.
 struct ReadOptions {
   AxisSet axes = all_axes;                 ///< that the machine has
   PositionMode mode = PositionMode::axes;  ///< while G43.4 is off
@@ -43,7 +43,7 @@ struct Move {
   bool sets = false;
   bool may_be_split = true;  ///< no M code of its block would be carried out later or twice
   AxisSet named = 0;         ///< axes that have a word in the block
-  AxisValues words{};        ///< in force at its end; 0 for an axis that the machine has not
+  AxisValues words{};        ///< in force at its end; 0 for an axis that the machine does not have
   std::array<std::uint8_t, axis_count> decimals{};  ///< of these words where they were written
   ModalState modal;                                 ///< with the words of its block in force
 };
@@ -69,9 +69,9 @@ struct Program {
 /// every axis of the machine has a word in force; none has after G28, G30, G53 and the end of a
 /// program, and the axes that the tool's length moves must be given again after G43, G43.4 and G49.
 /// Under G91 only G28 and G30 may have axis words, which are left alone, and canned cycles. After
-/// another work offset the machine stands where it stood, so that the words in force are others by
-/// the difference of the zeros; a tip must then be given again.
-/// @throws InputError with everything that is not read, each with its line and column
+/// another work offset the machine has not moved, so that the words in force differ by the
+/// difference of the zeros; a tip must then be given again. @throws InputError with everything that
+/// is not read, each with its line and column
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 
 }  // namespace trueaxis::nc

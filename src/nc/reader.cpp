@@ -66,7 +66,7 @@ class Reader {
     }
   }
 
-  /// The whole number of a word, -1 (and a complaint) where it is none.
+  /// The whole number of a word, or -1 and a complaint.
   int whole(const Word& word) {
     if (word.number >= 0.0 && word.number < 1e9 && word.number == std::floor(word.number))
       return static_cast<int>(word.number);
@@ -162,7 +162,7 @@ class Reader {
     const bool home = block_.has_g(g_home) || block_.has_g(g_second_home);
     const bool away = home || block_.has_g(g_machine);
     if (block_.refused) {
-      // What it does is not known; its words are taken, so that the blocks after it are read.
+      // What it does is not known; its words are read, so that the blocks after it are read too.
     } else if (state_.incremental && !home) {
       complain_once(first, told_incremental_, "axis words under G91: write them under G90");
     } else if (state_.motion == Motion::none && !away) {
@@ -183,7 +183,7 @@ class Reader {
     if (block_.has_g(g_home) || block_.has_g(g_second_home)) leave();
   }
 
-  /// After G28, G30 and G53 the machine stands somewhere that the program does not say.
+  /// After G28, G30 and G53 the machine is somewhere that the program does not say.
   void leave() {
     forget(all_axes, block_.has_g(g_machine) ? "G53" : block_.has_g(g_home) ? "G28" : "G30");
     continues_ = false;

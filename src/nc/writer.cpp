@@ -13,7 +13,7 @@
 namespace trueaxis::nc {
 namespace {
 
-/// Of LinuxCNC's interpreter with the CR of the line's end, the shortest limit that is known.
+/// The limit of LinuxCNC's interpreter with the CR of the line's end, the shortest that is known.
 constexpr std::size_t longest_line = 251;
 
 bool is_one_of(char letter, std::string_view letters) {
@@ -135,7 +135,7 @@ class Writer {
       if (!std::exchange(absolute, true)) out_.text += line.has_blanks ? "G90 " : "G90";
     };
     const std::size_t begin = out_.text.size();
-    const Word* last = nullptr;  // behind which other axes stand
+    const Word* last = nullptr;  // after which other axes come
     for (const Word& word : words_of(line))
       if (axis_of(word.letter) < axis_count && word.letter != 'Z') last = &word;
     for (const Word& word : words_of(line)) {
@@ -190,7 +190,7 @@ class Writer {
     check_length(line, now.size());
   }
 
-  /// The machine stands where it stood, which other words say.
+  /// The machine has not moved, but other words say where it is.
   void change_work_offset(std::size_t to) {
     for (std::size_t k = 0; k < axis_count; ++k)
       in_force_[k] += program_.zeros[work_offset_][k] - program_.zeros[to][k];
@@ -247,7 +247,7 @@ class Writer {
     if (words_++ > 0 && line.has_blanks) out_.text += ' ';
   }
 
-  /// A word as it stands; that of an arc as G1.
+  /// A word as it is; that of an arc as G1.
   void append_word(const Word& word, const Move& move) {
     std::string text(source_.substr(word.letter_at, word.end - word.letter_at));
     if (word.letter == 'G' && is_arc(move.modal.motion) &&
@@ -326,7 +326,7 @@ class Writer {
     }
   }
 
-  /// The last axis word; of a circle without one, the last word that stays.
+  /// The last axis word, or for a circle without one, the last word that stays.
   const Word* last_axis_word(const Line& line) const {
     const Word *last = nullptr, *other = nullptr;
     for (const Word& word : words_of(line)) {

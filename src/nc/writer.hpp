@@ -44,13 +44,12 @@ struct Written {
 
 /// The program with new positions, in the order of the moves: each move of the program has one that
 /// is not `inserted`, after those that are. All bytes stay except the numbers of axis words whose
-/// value changed; an axis without a word whose output changed gets one behind the last axis word.
-/// Before a block with inserted positions stand lines with their axis words; the first of them also
-/// has the words of the block that it needs where the block itself puts them into force (G1, F, S,
-/// M3), and under G93 every F is multiplied by the number of pieces. Arcs become G1. Canned
-/// cycles become G0 and G1 where a position of any of them changes, the lines after the first
-/// behind the block.
-/// @throws InputError where a line would have more than 251 characters, or a block cannot be cut
+/// value changed; an axis without a word whose output changed gets one after the last axis word.
+/// Lines with the axis words of inserted positions come before their block. The first of them also
+/// has the words that the block itself puts into force (G1, F, S, M3). Under G93 every F is
+/// multiplied by the number of pieces. Arcs become G1. Canned cycles become G0 and G1 where a
+/// position of any of them changes, the lines after the first come after the block. @throws
+/// InputError where a line would have more than 251 characters, or a block cannot be cut
 ///         in pieces
 Written write_program(const Program& program, std::span<const NewPosition> positions,
                       const WriteOptions& options);

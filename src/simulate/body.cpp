@@ -53,7 +53,7 @@ Body::Body(const Scenario& scenario, const Chain& chain)
 
 double Body::gap(const Vec3& in_part, const Chucking& setup) const {
   Vec3 p = in_part;
-  // The part turned in the sense of C, as the spindle turns it, so that a mark stands at less C.
+  // The part turned in the sense of C, as the spindle turns it, so that a mark is at less C.
   if (!chain_.bend.empty()) {
     const double cosine = std::cos(setup.reindex_rad), sine = -std::sin(setup.reindex_rad);
     for (const auto& bend : chain_.bend) {

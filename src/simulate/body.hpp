@@ -31,7 +31,7 @@ class Body {
     if (face_) return p.z - level_mm_;
     return std::sqrt(p.x * p.x + p.y * p.y) - radius_mm_ - tangent_ * p.z;
   }
-  /// With them; the part stands in `setup`.
+  /// With them; the part is in `setup`.
   double gap(const Vec3& p, const Chucking& setup) const;
 
   bool deformed() const { return deformed_; }

@@ -57,7 +57,7 @@ struct ProbeLine {
 /// What a sensor's term is of.
 struct Sensed {
   const TrueState& state;
-  double facing = 1.0;  ///< of the gauge: −1 behind, where it is turned round
+  double facing = 1.0;  ///< of the gauge: −1 on the rear side, where it is turned round
   Vec3 normal{};        ///< out of the material, machine frame; only if Chain::needs_normal
   double x_mm = 0.0;    ///< indication before the term
 };

@@ -13,7 +13,7 @@ namespace trueaxis::virtual_lathe {
 
 /// What a sensor makes of a position besides noise.
 struct SensorLimits {
-  double zero_mm = 0.0;  ///< taken off by a gauge
+  double zero_mm = 0.0;  ///< subtracted by a gauge
   double low_mm = -std::numeric_limits<double>::infinity();
   double high_mm = std::numeric_limits<double>::infinity();
   double quantisation_mm = 0.0;

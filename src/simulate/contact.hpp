@@ -88,7 +88,7 @@ Vec3 normal_at(const Gap& gap, const Vec3& p) {
   return (1.0 / std::sqrt(dot(g, g))) * g;
 }
 
-/// Reading of a ball: the centre stands off the contact by the radius along the normal, outwards of
+/// Reading of a ball: the centre is off the contact by the radius along the normal, outwards of
 /// the material (`stand_off` > 0) or inwards of a bore (< 0). `point_reading(line)` finds the
 /// contact of a point on a line.
 template <class Gap, class PointReading>

@@ -36,7 +36,7 @@ using Enters = void (*)(const Values&, Chain&);
 
 struct EffectEntry {
   std::string_view id, what;
-  LatheParameter parameters[10];  ///< those behind the last have no name
+  LatheParameter parameters[10];  ///< those after the last have no name
   Enters enter;
 };
 
@@ -52,8 +52,8 @@ inline constexpr auto form = &Chain::form;
 inline constexpr auto machine = &Chain::machine;
 inline constexpr auto response = &Chain::response;
 
-/// A formula in a slot of the chain: of what the slot is about, then of the effect's parameters, in
-/// the order of its entry.
+/// A formula in a slot of the chain. Its arguments are what the slot is about, then the effect's
+/// parameters, in the order of its entry.
 template <auto slot, class Formula>
 constexpr Enters in(Formula) {
   return [](const Values& of, Chain& chain) {

@@ -10,7 +10,7 @@ namespace {
 double sign(double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; }
 
 constexpr EffectEntry machine_table[] = {
-    // The reading was taken that long before C and Z were.
+    // The reading was made that long before C and Z were.
     {"probe.latency",
      "C' = C - omega delay, Z' = Z - v delay",
      {{"delay_s", {}}},

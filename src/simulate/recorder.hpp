@@ -26,7 +26,7 @@ struct Recording {
   SensorLimits sensor;
 };
 
-/// A sensor's indication: clipped to its limits, a gauge's zero taken off, rounded.
+/// A sensor's indication: clipped to its limits, a gauge's zero subtracted, rounded.
 struct Shown {
   double value_mm = 0.0;
   bool clipped = false;

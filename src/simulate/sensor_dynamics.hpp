@@ -61,7 +61,7 @@ class PlayFilter {
   }
 
   /// Indication at `when`, after what it was at the call before. At the first call it has followed
-  /// the same motion for a revolution; of a spindle that stands, for one unit.
+  /// the same motion for a revolution, or for one unit if the spindle is at rest.
   template <class Input>
   double at(double when, const Input& input) {
     if (!started_) now_ = when - before_, met_mm_ = value_mm_ = input(now_);

@@ -159,15 +159,15 @@ bool ToolPath::stands_at_end(const CutTable& table, std::size_t row) const {
 void ToolPath::load(const CutProgram& program, const CutTable& table) {
   const CutTool& tool = program.tool;
   double start_rad = tool.c_start_rad;
-  if (!table.c_rad.empty()) {  // whole turns are no difference
+  if (!table.c_rad.empty()) {  // whole turns do not count
     start_rad += two_pi * std::round((table.c_rad.front() - start_rad) / two_pi);
   }
   row_turn_.reserve(table.c_rad.size());
   for (const double c : table.c_rad) row_turn_.push_back(tool.sense * (c - start_rad) / two_pi);
   check(program, table);
   row_mm_ = program.use == CutUse::wanted ? table.wanted_mm : table.command_mm;
-  // Past the end the feed of this path does not stand: the rows of a table that does are left out,
-  // but for the first.
+  // Past the end the feed of this path goes on: the rows of a table whose feed stops are dropped,
+  // except the first.
   std::size_t rows = row_mm_.size();
   while (rows > 2 && stands_at_end(table, rows - 2)) --rows;
   row_mm_.resize(rows);

@@ -9,7 +9,8 @@
 namespace trueaxis::virtual_lathe {
 
 /// Where the nose centre is, against the turns of the spindle since the start of the programmed
-/// cut. "Depth" is the direction of the actuator (X, for a face Z), "position" that of the feed.
+/// cut. The word "depth" is the direction of the actuator (X, for a face Z), "position" that of the
+/// feed.
 class ToolPath {
  public:
   /// @throws InputError when table and program contradict each other.

@@ -21,7 +21,7 @@ constexpr double plain_exp(double x) {
   return sum;
 }
 
-/// log of 0 < x ≤ 1: powers of two taken off, then Halley's steps on exp.
+/// log of 0 < x ≤ 1: powers of two removed, then Halley's steps on exp.
 constexpr double plain_log(double x) {
   double twos = 0.0;
   for (; x < 0.70710678118654752; x *= 2.0) twos -= ln2;

@@ -14,7 +14,7 @@
 namespace trueaxis::virtual_lathe {
 namespace {
 
-/// When and how fast the recorded readings were taken.
+/// When and how fast the recorded readings were made.
 class RecordedMotion {
  public:
   explicit RecordedMotion(const ProbeStream& stream)

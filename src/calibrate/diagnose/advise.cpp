@@ -20,20 +20,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double weight_of_hidden = 0.1;   // an effect that is merely looked for, beside a class
+constexpr double weight_of_hidden =
+    0.1;  // an effect that is merely looked for, compared with a class
 constexpr double may_be_determined = 0.7;  // σ (Eq. 174), where it is 1 of rows that were read
 
 double typical(const Term& term, const MachineDiagnoseOptions& options) {
   return term.angle() ? options.typical_angle_rad : options.typical_length_mm;
 }
 
-/// An effect that these rows do not show, and the power of finding it at its typical size.
+/// An effect that these rows do not show, and the power to find it at its typical size.
 struct Hidden {
   std::size_t entry = 0;  ///< of `not_observable`
   double power = 0.0;
 };
 
-/// Whether a term was found, or is of the class of a finding, which names it.
+/// Whether a term was found, or is of the class of a cause, which names it.
 bool is_stated(const Questions& q, const std::vector<Term>& terms, const std::string& effect,
                const MachineDiagnosis& out) {
   return std::ranges::any_of(q.found, [&](std::size_t t) { return terms[t].effect() == effect; }) ||
@@ -147,7 +148,7 @@ Extended extended(const Questions& q, const Plan& plan, const std::vector<Term>&
           covariance_of(q.fit, problem, geometry, all, uncertain, q.variance)};
 }
 
-/// d of a finding's prediction beside the best fit of an effect, with the data of a plan.
+/// d of a cause's prediction after the best fit of an effect, with the data of a plan.
 double distance(const Extended& with, const MachineFinding& finding, const std::string& rival,
                 double variance) {
   const auto own = term_of_cause(with.terms, finding.cause);
@@ -167,7 +168,7 @@ double distance(const Extended& with, const MachineFinding& finding, const std::
 }
 
 /// What the data with a plan find of hidden effects, and the probability of the right name of each
-/// finding.
+/// cause.
 struct Outlook {
   std::vector<double> found, told;
 };

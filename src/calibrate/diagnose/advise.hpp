@@ -15,16 +15,16 @@ struct Questions {
   const MachineDiagnoseOptions& options;
   infer::SearchOptions search;
   double variance = 1.0;  ///< of a residual over its σ
-  Set found = {};         ///< terms that were found, which are fitted beside all that is asked for
+  Set found = {};         ///< terms that were found, which are fitted together with all others
 };
 
-/// Every effect that these rows do not show for sure at its typical size beside what was found, and
-/// what the plans show of them and tell apart (Eqs. 98-100, 182); the next plan.
+/// Every effect that these rows do not show for sure at its typical size after what was found. Also
+/// what the plans show of them and tell apart (Eqs. 98-100, 182), and the next plan.
 void advise(const Questions& questions, const infer::Dictionary& dictionary,
             const std::vector<Term>& terms, MachineDiagnosis& out);
 
-/// Of the columns of all unknowns and of the places, over σ, those that planned rows determine, and
-/// those that they may, as no row is read quite where it was planned.
+/// The columns of all unknowns and of the places, over σ, that planned rows determine, and those
+/// that they may determine. No row is read quite where it was planned.
 Eigen::MatrixXd planned_base(const Eigen::MatrixXd& all, std::size_t unknowns);
 
 }  // namespace trueaxis::calibrate_detail

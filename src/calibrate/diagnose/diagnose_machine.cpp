@@ -24,7 +24,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Base and found terms fitted together: linear beside the base's solution, whose second order in
+/// Base and found terms fitted together: linear about the base's solution, whose second order in
 /// effects of 10 µm stays below a nanometre.
 void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
   const Problem& problem = fit.problem;
@@ -62,8 +62,8 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
   hold_out(problem, columns, fit.solution.jacobian.cols(), readings, out);
 }
 
-/// Of a machine that warmed up while it was measured, errors of axes beside a course in time may
-/// be part of that course: they are no errors of the machine as it stands, and are not written.
+/// If a machine warmed up while it was measured, errors of axes found with a course in time may be
+/// part of that course. They are not errors of the machine as it is, and are not written.
 void leave_out_what_warms(Found& search) {
   const bool warms = std::ranges::any_of(search.found, [&](std::size_t t) {
     return search.terms[t].letters.find('t') != std::string::npos;
@@ -168,8 +168,8 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   fit_jointly(*fit, found, out);
   state_findings(*fit, found, out);
   judge_scatter(*fit, found, options, out);
-  // Beside something unknown, names and sizes of the rest are not sure: what a calibration makes of
-  // the readings, which counts what it does not fit, predicts the tip elsewhere better.
+  // With something unknown, names and sizes of the rest are not sure. A calibration of the
+  // readings, which counts what it does not fit, predicts the tip elsewhere better.
   if (!out.unexplained.empty()) out.errors = calibrate(machine, data, options.calibration).errors;
   out.effective_hypotheses = found.dictionary->independent_tests();
   out.typical_length_mm = options.typical_length_mm;

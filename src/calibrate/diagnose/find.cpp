@@ -95,7 +95,7 @@ class Finder {
     return false;
   }
 
-  /// @returns whether one of them passes beside what it was looked for beside
+  /// @returns whether one of them passes after the terms that the search had
   bool add_patterns() {
     const infer::Dictionary& now = *out_.dictionary;
     std::vector<Set> sets{{}, out_.found};

@@ -18,9 +18,9 @@ struct Found {
   infer::SearchOptions options;
 };
 
-/// The effects that explain the readings, then the patterns that do so better or beside them: those
-/// that gain most alone, beside all that was found and beside all of it but one take part in the
-/// search (Eqs. 178-180, 184). Slips, bumps and steps are moved to where they are.
+/// The effects that explain the readings, then the patterns that do so better or in addition. Those
+/// that gain most alone, with all that was found and with all of it but one take part in the search
+/// (Eqs. 178-180, 184). Slips, bumps and steps are moved to where they are.
 Found find_terms(const TipFit& fit, const Geometry& geometry,
                  const std::vector<MachineEffect>& catalogue, const MachineDiagnoseOptions& options,
                  bool timed);

@@ -14,7 +14,7 @@ char letter_of(const MachineTerm& term) {
   return axis ? trueaxis::letter_of(*axis) : 't';
 }
 
-/// The catalogue's term of every member of a class.
+/// The catalogue's term of every cause of a class.
 std::vector<const MachineTerm*> terms_of(const MachineFinding& finding, const Found& search) {
   std::vector<const MachineTerm*> out;
   for (const std::string& member : finding.members()) {
@@ -32,7 +32,7 @@ bool shares_its_axis(const MachineFinding& finding, const Found& search) {
   });
 }
 
-/// Whether a member of a class is that component error, as a function of its axis.
+/// Whether a cause of a class is that component error, as a function of its axis.
 bool may_be(const MachineFinding& finding, const Found& search, const ErrorName& error) {
   return std::ranges::any_of(terms_of(finding, search), [&](const MachineTerm* member) {
     const auto* own = std::get_if<ErrorOfPosition>(member);
@@ -40,7 +40,7 @@ bool may_be(const MachineFinding& finding, const Found& search, const ErrorName&
   });
 }
 
-/// The third of one error among the classes is no order or degree of it.
+/// The third of one error among the classes is not an order or degree of it.
 bool one_of_three(const MachineFinding& finding, const std::vector<MachineFinding>& all,
                   const Found& search) {
   return std::ranges::any_of(terms_of(finding, search), [&](const MachineTerm* member) {
@@ -60,7 +60,7 @@ bool slips_again(std::size_t at, const Found& search) {
                           }) > 1;
 }
 
-/// What some of the terms gain together beside the others.
+/// What some of the terms gain together after the others.
 double gain_of_some(const Found& search, const std::vector<bool>& some) {
   Set others;
   for (std::size_t i = 0; i < some.size(); ++i)

@@ -5,7 +5,7 @@
 
 namespace trueaxis::calibrate_detail {
 
-/// Which of the findings are no names: patterns, and what may be part of something unknown (Eqs.
+/// Which of the causes do not get a name: patterns, and what may be part of something unknown (Eqs.
 /// 184, 230). @param findings one each of `search.found`
 std::vector<bool> parts_of_unknown(const Found& search,
                                    const std::vector<MachineFinding>& findings);

@@ -7,7 +7,7 @@
 
 namespace trueaxis::calibrate_detail {
 
-/// A function of the row, as few columns: of one axis, of two, or of the time.
+/// A function of the row, as few columns. It depends on one axis, on two, or on the time.
 struct PatternFunction {
   std::string words;                     ///< "harmonic 5 of C"
   Eigen::MatrixXd values;                ///< a row of the problem each

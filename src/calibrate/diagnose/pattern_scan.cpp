@@ -114,7 +114,7 @@ std::vector<std::size_t> PatternScan::best(const MatrixXd& beside, const VectorX
     const MatrixXd cross = products.topRows(rank);
     const MatrixXd left = entry.products - linear::gram(cross);
     const VectorXd right = products.row(rank).transpose();
-    // To orthonormal columns: what others take up wholly is left out by its share.
+    // To orthonormal columns: what others take up wholly is dropped by its share.
     const linear::Spectrum of = linear::spectrum(left);
     double gain = 0.0;
     for (Index k = 0; k < left.rows(); ++k) {
@@ -122,7 +122,7 @@ std::vector<std::size_t> PatternScan::best(const MatrixXd& beside, const VectorX
       const double along = of.vectors.col(k).dot(right);
       gain += along * along / of.values[k];
     }
-    // Of two alike (orders that the positions alias) the first stands.
+    // Of two alike (orders that the positions alias) the first stays.
     const double score = 2.0 * static_cast<double>(left.rows()) - gain;
     scores.emplace_back(std::round(1e5 * score), e);
   }

@@ -6,9 +6,9 @@
 
 namespace trueaxis::calibrate_detail {
 
-/// Patterns that no effect makes, thousands of them, each as a gain only: a pattern is an error of
-/// an axis (or a shift of the tip or the part) times functions of the row, so that its products
-/// with whatever is fitted are sums over the rows of few columns (Eq. 184).
+/// Patterns that no effect makes, thousands of them, each as a gain only. A pattern is an error of
+/// an axis (or a shift of the tip or the part) times functions of the row. Its products with
+/// whatever is fitted are therefore sums over the rows of few columns (Eq. 184).
 class PatternScan {
  public:
   PatternScan(const Problem& problem, const Geometry& geometry, const Eigen::MatrixXd& base,
@@ -16,7 +16,7 @@ class PatternScan {
 
   std::size_t size() const { return entries_.size(); }
 
-  /// The best patterns beside columns that are orthogonal to the base, by what they gain less their
+  /// The best patterns after columns that are orthogonal to the base, by what they gain less their
   /// price. @param beside over σ, of any rank
   std::vector<std::size_t> best(const Eigen::MatrixXd& beside, const Eigen::VectorXd& residuals,
                                 std::size_t most) const;
@@ -28,7 +28,7 @@ class PatternScan {
  private:
   struct Entry {
     std::size_t unit = 0, function = 0;
-    Eigen::MatrixXd products;  ///< of its columns beside the base
+    Eigen::MatrixXd products;  ///< of its columns after the base
   };
   void add(std::size_t unit, const std::vector<std::size_t>& functions);
   std::vector<std::size_t> keep(std::vector<PatternFunction> functions);

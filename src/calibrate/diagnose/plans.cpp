@@ -205,7 +205,7 @@ class Planner {
 
 std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors, double noise_mm) {
   if (machine.linear_count() != 3 || machine.rotary_count() == 0) return std::nullopt;
-  // Where the grid's ball stands: 80 mm off the line of the first rotary axis and 60 mm up along
+  // The place of the grid's ball: 80 mm off the line of the first rotary axis and 60 mm up along
   // it.
   MachineMeasurement seed;
   const auto axis = std::ranges::find_if(

@@ -77,7 +77,7 @@ std::vector<std::array<std::string, 2>> pairs_like(const infer::Dictionary& dict
                                                    const std::vector<Term>& terms, const Set& set,
                                                    std::size_t at, const MachineFinding& finding) {
   constexpr std::size_t of_terms = 60, most = 5;
-  constexpr double least_part = 0.02;  // of a finding that a member makes alone
+  constexpr double least_part = 0.02;  // of a cause that one member makes alone
   if (terms[set[at]].is_pattern()) return {};
   const infer::Projection beside = dictionary.beside(infer::without(set, at));
   const infer::Columns& own = dictionary.block(set[at]).columns;
@@ -85,7 +85,7 @@ std::vector<std::array<std::string, 2>> pairs_like(const infer::Dictionary& dict
   const VectorXd a = all.coefficients.tail(static_cast<Index>(own.size()));
   const double whole = infer::left_of(beside, own, a);
   const double near = infer::told_apart * infer::told_apart * dictionary.variance(set);
-  /// What columns make of the finding, and their coefficients.
+  /// What columns make of the cause, and their coefficients.
   const auto made = [&](const infer::Columns& columns, VectorXd& share) {
     const VectorXd cross = beside.gram(columns, own) * a;
     share = linear::least_squares(beside.gram(columns, columns), cross);

@@ -6,11 +6,11 @@
 
 namespace trueaxis::calibrate_detail {
 
-/// Orders up to 12 that read as that of a harmonic at the positions of its axis: they are said, and
-/// the name's probability is shared with them, an order n as 1/n² (Eq. 185).
+/// Orders up to 12 that read as that of a harmonic at the positions of its axis. They are listed,
+/// and share the name's probability, an order n as 1/n² (Eq. 185).
 void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& finding);
 
-/// Pairs of effects of plausible sizes that are together within d = 3.29 of a finding, while
+/// Pairs of effects of plausible sizes that are together within d = 3.29 of a cause, while
 /// neither is alone (Eq. 186); the nearest five.
 std::vector<std::array<std::string, 2>> pairs_like(const infer::Dictionary& dictionary,
                                                    const std::vector<Term>& terms, const Set& set,

@@ -21,14 +21,14 @@ struct PatternPlace {
 
 /// A hypothesis: columns of the readings, each per mm or rad.
 struct Term {
-  MachineEffect of;  ///< of the catalogue; of a pattern its words for the id, and no term
+  MachineEffect of;  ///< of the catalogue; a pattern has its words as the id, and no term
   Eigen::MatrixXd columns;
   std::vector<ErrorTerm> errors;    ///< of which each column is; empty: no error of the machine
   bool barred = false;              ///< a pattern that an effect makes at these rows
   double tests = 1.0;               ///< how many places of it were tried
   double size_median = 0.0;         ///< plausible size of a column's coefficient; 0: none is known
   double size_spread = 1.0;         ///< of its logarithm
-  std::size_t target = 0, row = 0;  ///< of a step of a ball: of which target, from which row on
+  std::size_t target = 0, row = 0;  ///< of a step of a ball: its target, and its first row
   std::size_t unit = 0;             ///< of a pattern: the column that its functions multiply
   std::string letters;              ///< of the axes that it is a function of; t: of the time
   std::optional<PatternPlace> place;  ///< of a local pattern
@@ -44,7 +44,7 @@ std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
                                const std::vector<MachineEffect>& catalogue);
 
 using Set = infer::Dictionary::Set;
-/// Terms as hypotheses beside what is always fitted. @param base columns over σ, of any rank
+/// Terms as hypotheses after what is always fitted. @param base columns over σ, of any rank
 infer::Dictionary dictionary_of(const std::vector<Term>& terms, const Eigen::MatrixXd& base,
                                 const Eigen::VectorXd& weights, const CalibrationOptions& options);
 

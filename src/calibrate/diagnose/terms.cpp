@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t slips_a_target = 16;  // tried in the search, then refined
 
-/// The way in which an axis goes first: that in which it is taken to have come before.
+/// The way in which an axis goes first: that in which it is assumed to have come before.
 double first_way(const Problem& problem, std::size_t axis) {
   for (const Row& row : problem.rows) {
     const double move = row.axes[axis] - problem.rows.front().axes[axis];

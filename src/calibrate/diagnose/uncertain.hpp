@@ -11,7 +11,7 @@ namespace trueaxis::calibrate_detail {
 std::vector<UncertainParameter> uncertain_of(const TipFit& fit, const MachineDiagnosis& found,
                                              const MachineDiagnoseOptions& options);
 
-/// Their covariance after a measurement, by rows, places beside them free (Eq. 189). Empty of none.
+/// Their covariance after a measurement, by rows, with the places free (Eq. 189). Empty of none.
 /// @param base columns of all unknowns per largest size, then of the places, over σ
 Covariance covariance_of(const TipFit& fit, const Problem& problem, const Geometry& geometry,
                          const Eigen::MatrixXd& base,

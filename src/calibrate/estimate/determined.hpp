@@ -23,12 +23,11 @@ struct Determined {
 
 /// Which unknowns a measurement determines (Eqs. 174, 175). `unknowns` are columns over σ, each
 /// times its largest plausible size, the preferred ones first; `places` those that are always
-/// fitted, over σ. An unknown of which less than one σ is left beside the places and the unknowns
-/// before it is held; then, while some direction of those that are left stays below one σ, the last
-/// unknown that takes part in it is. The threshold is absolute: of 30 unknowns ball data tell 13 to
-/// 19, and the rest come back in second order off the nominal ball, where a relative one would let
-/// them swallow whole effects.
-/// @param tells the threshold, σ
+/// fitted, over σ. An unknown is held if less than one σ of it is left after the places and the
+/// unknowns before it. Then, while some direction of the others stays below one σ, the last unknown
+/// that takes part in it is held. The threshold is absolute. Ball data tell 13 to 19 of 30
+/// unknowns, and the rest come back in second order off the nominal ball. A relative threshold
+/// would let them swallow whole effects there. @param tells the threshold, σ
 Determined determine(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& places,
                      double tells = 1.0);
 

@@ -7,9 +7,10 @@
 
 namespace trueaxis::calibrate_detail {
 
-inline constexpr double whole_turn = 300.0 * rad_per_deg;  ///< from here on harmonics can be told
-inline constexpr double least_range = 1e-6;                ///< of an axis that moved
-inline constexpr double least_move = 1e-9;                 ///< between two rows
+inline constexpr double whole_turn =
+    300.0 * rad_per_deg;                     ///< from here on harmonics can be determined
+inline constexpr double least_range = 1e-6;  ///< of an axis that moved
+inline constexpr double least_move = 1e-9;   ///< between two rows
 
 /// All that rows and places give the columns of terms.
 struct Geometry {

@@ -29,7 +29,7 @@ constexpr double some_leeway = 1.3;   // of the RMS that is left of them
 struct Mistake {
   std::string what, mend;
   std::function<void(MachineMeasurement&)> undo;
-  /// By which mending makes the readings smaller, and what is left of them with it.
+  /// The factor by which mending makes the readings smaller, and the residuals with it.
   double smaller = 1.0;
 };
 

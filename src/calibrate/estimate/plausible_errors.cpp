@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 constexpr int last_degree = 3, last_order = 4;
 constexpr double least_travel_mm = 500.0;  // of an axis without limits
 
-/// Limits of a linear axis; of one without them what was moved, 500 mm at least.
+/// Limits of a linear axis, or without them the travel of the data, 500 mm at least.
 AxisRange travel_of(const Problem& problem, const MachineAxis& axis) {
   AxisRange range = axis_range(problem, axis.name);
   const double more = 0.5 * std::max(0.0, least_travel_mm - range.length());

@@ -16,8 +16,8 @@ struct PlausibleError {
   std::vector<double> shares;  ///< of the mean square of the error, over that of the amount: Var/s²
 };
 
-/// What the sizes of component errors are taken to be before anything is measured: the medians of
-/// machining centres in good order, chosen, and the factor within which two in three lie.
+/// The assumed sizes of component errors before anything is measured: the medians of machining
+/// centres in good order, chosen, and the factor within which two in three lie.
 struct PlausibleSizes {
   double linear_length_mm = 3e-3;   ///< position and straightness of a linear axis over its travel
   double linear_angle_rad = 12e-6;  ///< its roll, pitch and yaw

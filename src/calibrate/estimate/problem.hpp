@@ -11,7 +11,7 @@
 
 namespace trueaxis::calibrate_detail {
 
-/// What the tip is held against, in the workpiece's body (M, zero position): a ball's centre, or
+/// What the tip is compared with, in the workpiece's body (M, zero position): a ball's centre, or
 /// the straight line that the balls of a bar lie on. Its place is unknown.
 struct Target {
   std::size_t file = 0;
@@ -38,7 +38,7 @@ struct Row {
   Eigen::Index equations() const { return kind == MeasurementKind::bar ? 1 : 3; }
 };
 
-/// Rows of all files of kinds ball, bar and array in order, and what they are held against.
+/// Rows of all files of kinds ball, bar and array in order, and what they are compared with.
 struct Problem {
   const Machine* machine = nullptr;
   std::vector<Target> targets;

@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 constexpr int most_iterations = 300;
 constexpr double settled = 1e-3;  // of ln t and of ln φ, a round
 
-/// The most probable x = ln t of `count` amounts whose squares over s² share add up to `square`,
-/// where x itself is normal about `centre`: square e^{−2x} − count − (x − centre)/τ² = 0.
+/// The most probable x = ln t of `count` amounts whose squares over s² share add up to `square`. x
+/// itself is normal about `centre`: square e^{−2x} − count − (x − centre)/τ² = 0.
 double best_log(double count, double square, double centre, double tau) {
   double x = 0.5 * std::log(std::max(square, 1e-300) / count);
   for (int step = 0; step < 50; ++step) {
@@ -114,7 +114,7 @@ class Regressor {
     normal.diagonal().array() += 1.0;
     const linear::Cholesky factors(normal);
     mean_ = factors.solve(VectorXd(scale.cwiseProduct(right_beside_) / variance_));
-    // Of the inverse L⁻ᵀL⁻¹ the diagonal alone: columns of L⁻¹, which begin at their own row.
+    // The diagonal of the inverse L⁻ᵀL⁻¹ alone: columns of L⁻¹, which begin at their own row.
     constexpr Index columns = 16;
     const MatrixXd lower = factors.lower();
     variances_.resize(random_);
@@ -158,7 +158,7 @@ class Regressor {
   std::vector<double> logs_;  ///< ln t
   VectorXd unit_, right_, scale_;
   MatrixXd products_;
-  MatrixXd beside_;                           ///< products of the random ones beside the fixed
+  MatrixXd beside_;                           ///< products of the random ones after the fixed
   VectorXd right_beside_, mean_, variances_;  ///< of the random ones
   double square_ = 0.0, square_beside_ = 0.0, variance_ = 1.0, common_ = 0.0;
 };

@@ -40,8 +40,7 @@ bool passes(double log_p, double tests) {
   return infer::Family{tests}.p_value(std::exp(log_p)) < false_alarm;
 }
 
-/// The strongest line of the residuals, refined with four of its multiples; 0 where it could be
-/// chance.
+/// The strongest line of the residuals, refined with four of its multiples; 0 if it could be noise.
 double strongest_line(const PeriodicFit& fit, const Band& band) {
   const PeriodicFit::Result smooth = fit.with({}, 1.0);
   const auto count = static_cast<std::size_t>((band.high - band.low) / band.step) + 1;
@@ -59,7 +58,7 @@ double strongest_line(const PeriodicFit& fit, const Band& band) {
   return passes(log_p, static_cast<double>(count)) ? frequency : 0.0;
 }
 
-/// The orders of a period that are no chance, and its Bayesian information criterion.
+/// The orders of a period that are significant, and its Bayesian information criterion.
 struct Choice {
   double period = 0.0, criterion = 0.0;
   std::vector<int> orders;
@@ -145,10 +144,10 @@ Choice of_turn(const PeriodicFit& fit, const MachineMeasurement& file, int max_o
   return choose(fit, two_pi, std::move(orders));
 }
 
-/// What is fitted to a read-out, in addition to the reversal value if it was read in both senses: a
-/// linear axis' polynomial and any period; of a rotary axis that was read all around the turn
-/// alone, or a free period that wins clearly over more than two turns; of one that was read over a
-/// part of it a polynomial.
+/// What is fitted to a read-out, in addition to the reversal value if it was read in both senses. A
+/// linear axis has a polynomial and any period. A rotary axis that was read all around has the turn
+/// alone, or a free period that wins clearly over more than two turns. One that was read over a
+/// part of it has a polynomial.
 struct ReadOutModel {
   PeriodicFit fit;
   Choice choice;

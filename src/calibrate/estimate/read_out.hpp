@@ -11,8 +11,8 @@ namespace trueaxis::calibrate_detail {
 /// found, by least squares (Eq. 177).
 AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders);
 
-/// Of every file of kind axis: its read-out, parameters, and the error that follows, in which the
-/// zero of the read-out has no part.
+/// For every file of kind axis: its read-out, parameters, and the error that follows. The zero of
+/// the read-out has no part in it.
 void from_read_outs(const Machine& machine, std::span<const MachineMeasurement> data,
                     const CalibrationOptions& options, Calibration& out);
 

@@ -19,13 +19,13 @@ struct Unknown {
 
 ErrorFunction scaled(const ErrorFunction& function, double factor);
 
-/// Every location error of the axes that has an effect, X0S Y0S Z0S, A0S and B0S. Of what the data
-/// cannot tell apart the later one is held: lines of the rotary axes stand first, then squareness
-/// (X is the reference, as ISO 230-1 has it), zeros, the spindle.
+/// Every location error of the axes that has an effect, X0S Y0S Z0S, A0S and B0S. If the data
+/// cannot tell two apart, the later one is held: lines of the rotary axes come first, then
+/// squareness (X is the reference, as ISO 230-1 has it), zeros, the spindle.
 std::vector<Unknown> location_unknowns(const Machine& machine, double largest_length_mm,
                                        double largest_angle_rad);
 
-/// `given` and what was found of each unknown, 0 left out.
+/// `given` and what was found of each unknown, without zeros.
 ErrorModel with(const ErrorModel& given, const std::vector<Unknown>& unknowns,
                 const Eigen::VectorXd& values);
 

@@ -40,11 +40,11 @@ Json finding_json(const MachineFinding& finding) {
   return json;
 }
 
-/// Of the alternatives of `MachineTerm`, in their order.
+/// The alternatives of `MachineTerm`, in their order.
 const Json kinds_of_term[] = {nullptr, "position", "sense", "tip_drift", "ball_step"};
 static_assert(std::variant_size_v<MachineTerm> == std::size(kinds_of_term));
 
-/// What stands behind each id of the catalogue, so that nobody takes an id apart: its kind is the
+/// The meaning of each id of the catalogue, so that nobody takes an id apart: its kind is the
 /// term that it is, its axis that which it is a function of.
 Json effects_json(const MachineDiagnosis& d) {
   Json json = Json::object();
@@ -89,7 +89,7 @@ Json plan_json(const MachinePlan& plan) {
           {"separates", plan.separates}};
 }
 
-/// Where to go: a table with the columns of a measurement, and where the balls stand.
+/// Where to go: a table with the columns of a measurement, and where the balls are.
 Json measurement_json(const MachinePlan& plan, const Machine& machine) {
   Json columns{"setup", "ball"}, rows = Json::array(), balls = Json::array();
   std::vector<std::size_t> axes;

@@ -14,7 +14,7 @@ using layout::um;
 
 constexpr std::size_t most_findings = 3, most_rivals = 2, most_hidden = 8, most_plans = 5;
 
-/// The first `most` of a list, and how many there are beside them.
+/// The first `most` of a list, and how many more there are.
 std::string some_of(const std::vector<std::string>& all, std::size_t most) {
   const std::size_t shown = all.size() > most ? most - 1 : all.size();
   std::string text =
@@ -29,7 +29,7 @@ std::string small_estimate(const std::string& name, const Estimate& estimate, do
          layout::plus_minus(estimate, k, angle ? 1e6 : 1.0 / mm_per_um, angle ? "µrad" : "µm");
 }
 
-/// The cause, its size and its rivals; then in words, with what follows from it.
+/// The cause, its size and its rival causes; then in words, with what follows from it.
 std::string finding_screen(const MachineFinding& finding) {
   std::string text = fmt::format("seen   {}: {}, {} in the readings", finding.effect(),
                                  small_size(finding.size, finding.cause.unit), um(finding.rms_mm));

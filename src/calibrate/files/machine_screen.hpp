@@ -6,7 +6,7 @@
 #include "trueaxis/machine_diagnosis.hpp"
 
 /// What fits a screen of a machine's calibration and diagnosis: verdict, reason, what to do next.
-/// Lines are not broken (the command does), their text stands in column 8; µm and µrad. The texts
+/// Lines are not broken (the command does), their text begins in column 8; µm and µrad. The texts
 /// of `--verbose` have the rest.
 namespace trueaxis {
 
@@ -16,11 +16,11 @@ std::string small_size(double size, const std::string& unit);
 std::string calibration_screen(const Calibration& calibration);
 
 /// Without the next measurement, which may depend on what is weighed on a program.
-/// Its first line; `arrow` stands between before and after.
+/// Its first line; `arrow` comes between before and after.
 std::string machine_diagnosis_line(const MachineDiagnosis& diagnosis, const char* arrow);
 std::string machine_diagnosis_screen(const MachineDiagnosis& diagnosis);
 
-/// The findings and what these positions do not show, a few lines.
+/// The causes and what these positions do not show, a few lines.
 std::string machine_findings_screen(const MachineDiagnosis& diagnosis);
 
 /// "next   …": the measurement that shows and separates most.

@@ -121,7 +121,7 @@ class Rows {
   bool of_errors_ = false;
 };
 
-/// Whether what was said before the header is enough to read it.
+/// Whether the lines before the header are enough to read it.
 bool take_metadata(const MeasurementMetadata& metadata, const Machine& machine, std::size_t number,
                    MachineMeasurement& out, CsvDiagnostics& diagnostics) {
   const auto wrong = [&](const char* key, const std::string& why) {

@@ -9,8 +9,8 @@
 namespace trueaxis {
 
 /// Reads a measurement on a machine (calibration.md): `# kind: ball`, a header that names
-/// every column with its unit, rows in the order in which they were taken.
-/// @throws InputError with every diagnostic: file, line, column, what to do.
+/// every column with its unit, rows in the order of measurement. @throws InputError with every
+/// diagnostic: file, line, column, what to do.
 MachineMeasurement read_measurement_csv(const std::string& path, const Machine& machine);
 
 /// All files, or what is wrong with any of them.

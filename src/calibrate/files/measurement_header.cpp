@@ -35,7 +35,7 @@ std::vector<Known> known_columns(const MeasurementMetadata& metadata, const Mach
   const bool array = kind == MeasurementKind::array;
   std::vector<Known> known{{"setup", Role::setup, 0, UnitKind::count, !array},
                            {"ball", Role::ball, 0, UnitKind::count, true}};
-  for (const MachineAxis& axis : machine.axes)  // an array's rotary axes stand at 0 unless said
+  for (const MachineAxis& axis : machine.axes)  // an array's rotary axes are at 0 unless stated
     known.push_back({std::string(1, letter_of(axis.name)), Role::axis, index_of(axis.name),
                      of_axis(axis.name), !array || !is_rotary(axis.name)});
   if (kind == MeasurementKind::ball)

@@ -23,7 +23,7 @@ struct MeasurementMetadata {
   std::map<std::string, std::size_t> lines;  ///< by key
 };
 
-/// Takes a comment line; what looks like a known key and is none is a diagnostic.
+/// Reads a comment line; a comment that resembles a known key is a diagnostic.
 void take_measurement_comment(std::string_view line, std::size_t number,
                               MeasurementMetadata& metadata, CsvDiagnostics& diagnostics);
 

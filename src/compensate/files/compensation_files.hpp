@@ -28,7 +28,7 @@ std::string worse_text(const ProgramCompensation& result, const CompensationOpti
 std::string unreachable_text(const ProgramCompensation& result, const std::string& file);
 
 /// What fits a screen of a compensated program: how far the tip is off before and after on its
-/// whole path, what was changed, what does it. Lines are not broken, their text stands in column 8.
+/// whole path, what was changed, what does it. Lines are not broken, their text begins in column 8.
 std::string compensation_screen(const ProgramCompensation& result,
                                 const CompensationOptions& options);
 

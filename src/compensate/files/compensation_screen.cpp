@@ -45,7 +45,7 @@ std::string causes_screen(const ProgramCompensation& result) {
   return alone.empty() ? "" : "cause  the tip off by each error alone: " + alone + "\n";
 }
 
-/// "0.118°"; what no axis resolves is said so.
+/// "0.118°"; in words if no axis resolves it.
 std::string degrees(double angle_rad) {
   const double deg = angle_rad / rad_per_deg;
   return deg < 1e-4 ? "less than 0.0001°" : fmt::format("{:.2g}°", deg);

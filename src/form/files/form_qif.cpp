@@ -35,7 +35,7 @@ const std::map<std::string, QifFeatureKind> form_of{{"CYLt", QifFeatureKind::cyl
                                                     {"FLTt", QifFeatureKind::plane},
                                                     {"STRt", QifFeatureKind::line}};
 
-/// A value about the minimum zone; bounds are no measured value.
+/// A value about the minimum zone; bounds are not a measured value.
 bool about_minimum_zone(const FormValue& one) {
   if (one.estimate.interval) return false;
   return one.reference.empty() || one.reference.starts_with("MZ");

@@ -153,7 +153,7 @@ std::string section_rows(const FormResult& result, bool all) {
   return text;
 }
 
-/// Names and values of a group behind each other, several a line.
+/// Names and values of a group after each other, several per line.
 std::string run_on(const FormGroup& group, std::span<const char* const> names, double k) {
   std::string text;
   for (const char* name : names)

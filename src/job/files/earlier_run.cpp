@@ -14,8 +14,8 @@ struct WrittenFile {
   std::string name, hash;  ///< in the folder of the results; content_hash() of what was written
 };
 
-/// What the run that left `result_path` wrote beside it and `now` does not name; empty where there
-/// is no such result. Names that are no plain ones are passed over.
+/// What the run that left `result_path` wrote next to it and `now` does not name; empty if there is
+/// no such result. Names that are not plain are passed over.
 std::vector<WrittenFile> files_of_earlier_run(const std::string& result_path,
                                               const std::vector<ResultFile>& now) {
   std::error_code error;

@@ -17,7 +17,7 @@ struct StreamFile {
   ZRange z{};  ///< readings at other Z are passed over
 };
 
-/// A job as it is written down: what run_job() is given, and the files behind it.
+/// A job as it is written down: what run_job() gets, and the files it comes from.
 struct JobFile {
   std::string path;
   Job job{};

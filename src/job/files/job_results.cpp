@@ -87,7 +87,7 @@ Json datum_object(const JobResult& result) {
           {"remainders", remainders_array(result.datum->references)}};
 }
 
-/// The references held against each other: what is apart beyond its U, and why nothing may be cut.
+/// The references compared with each other: what is apart beyond its U, and why nothing may be cut.
 Json agreement_object(const JobResult& result) {
   const double k = result.job.references.front().fit.coverage_factor;
   const auto pair_json = [&](const Disagreement& d) {
@@ -278,7 +278,7 @@ std::vector<ResultName> job_file_names(const Job& job) {
 
 namespace {
 
-/// The files beside result.json.
+/// The files next to result.json.
 std::vector<ResultFile> files_beside(const JobResult& result) {
   std::vector<ResultFile> files;
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {

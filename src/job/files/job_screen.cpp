@@ -37,7 +37,7 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
   for (const std::string& note : result.fits[i].input_notes) text += "input  " + note + "\n";
   if (diagnosis) text += excluded_screen(*diagnosis);
   if (diagnosis && !ideal) text += findings_screen(*diagnosis, most_findings);
-  // Beside findings and the axis the screen has no line for what no tolerance asks for.
+  // With causes and the axis the screen has no line for what no tolerance asks for.
   const bool room = ideal || result.fits.size() > 1 || result.correction;
   if (i < result.forms.size() && (room || !result.forms[i].judgements.empty()))
     text += part_form_screen(result.forms[i], result.fits.size() > 1 ? name : "");

@@ -231,12 +231,12 @@ void read_correction(TomlTable table, Job& job) {
   }
 }
 
-/// Every `[[output]]`, held against the cut that it is of and the names beside it.
+/// Every `[[output]]`, compared with its cut and the other names.
 void read_outputs(TomlTable root, JobFile& file) {
   Job& job = file.job;
   for (TomlTable table : root.tables("output")) {
     ControlTable output = read_output(table, file.templates);
-    if (!std::isnan(output.position_step_mm)) {  // else it is said already
+    if (!std::isnan(output.position_step_mm)) {  // else there is a message already
       const std::string why = objection_to(output, *job.target, job.tool);
       if (!why.empty()) table.complain("format", why);
     }

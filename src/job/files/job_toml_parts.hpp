@@ -14,14 +14,14 @@ namespace trueaxis {
 /// Tolerances of a reference's form and its filter; what the surface has not is complained about.
 FormTask read_form_task(TomlTable reference, SurfaceKind surface);
 
-/// Complains about a `runout_datum` that is no other reference which is probed around.
+/// Complains about a `runout_datum` that is not another reference which is probed around.
 void check_runout_datums(TomlTable root, const Job& job);
 
 /// `association` of a reference; what its surface has not is complained about.
 std::optional<Criterion> read_association(TomlTable reference, SurfaceKind surface, bool bore);
 
-/// `datum` and `secondary_datum` of a target, names of references. Complains about what is none of
-/// these and what makes no axis.
+/// `datum` and `secondary_datum` of a target, names of references. Complains about what does not
+/// belong to these and what makes no axis.
 DatumSystem read_datums(TomlTable target, const Job& job);
 
 /// One `[[output]]` of a job: a file for a control. What a control leaves open (radius or diameter,

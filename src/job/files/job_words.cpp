@@ -40,7 +40,7 @@ const char* head_of(Decision decision) {
   return "NO-GO: ";
 }
 
-/// Of a cut that is not run only what is not of the cut is said beside the reason.
+/// If a cut is not run, only what is not of the cut comes with the reason.
 bool is_on_the_line(const Reason& reservation, const Verdict& verdict) {
   const ReasonCode code = reservation.code;
   return verdict.go() || code == ReasonCode::form_not_met || code == ReasonCode::form_not_proven ||

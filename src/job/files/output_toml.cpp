@@ -18,7 +18,7 @@ const char* usual_name(ControlFormat format) {
   return names[static_cast<std::size_t>(format)];
 }
 
-/// What the shop has before and behind the blocks: a template with a line `( CUTTING BLOCK )`.
+/// What the shop has before and after the blocks: a template with a line `( CUTTING BLOCK )`.
 void read_template(TomlTable& table, ControlTable& out, std::vector<std::string>& templates) {
   const auto path = table.maybe_path("template");
   if (!path) {

@@ -9,10 +9,11 @@
 
 namespace trueaxis {
 
-/// Whether a file is a job, as standard input is: its first line that is no comment is one of TOML.
+/// Whether a file is a job, as standard input is: its first line that is not a comment is one of
+/// TOML.
 bool is_job(const std::string& path);
 
-/// The job of one stream that nothing else is said of.
+/// The job of one stream about which nothing else is known.
 JobFile job_of_stream(StreamFile stream, FitOptions fit);
 
 /// How a user says a stretch of Z.

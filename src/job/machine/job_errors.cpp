@@ -10,7 +10,7 @@
 namespace trueaxis::machine_job {
 namespace {
 
-/// Of the numbers of a finding, as amounts of errors of size 1.
+/// The covariance of the numbers of a cause, as amounts of errors of size 1.
 ErrorCovariance covariance_of(const MachineFinding& found) {
   std::vector<UncertainAmount> amounts;
   std::vector<std::size_t> at;
@@ -43,7 +43,7 @@ ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) 
   ErrorModel errors = calibrate(job.machine, job.data, options).errors;
   if (std::ranges::any_of(diagnosis.findings,
                           [](const MachineFinding& found) { return found.errors.empty(); })) {
-    // What is no error of the machine (reversal, drift, slip) is fitted by the diagnosis alone; U
+    // The diagnosis alone fits what is not an error of the machine (reversal, drift, slip); U
     // is that of the calibration, which counts what is not fitted too.
     ErrorCovariance counted = std::move(errors.covariance);
     errors = diagnosis.errors;

@@ -95,8 +95,8 @@ Reason not_told(const MachineFinding& found) {
   return reason;
 }
 
-/// Where the part stands as a whole has six numbers, which the errors of three points and fewer,
-/// nine numbers and fewer, are nearly taken up by: what is left of them says nothing.
+/// The place of the part as a whole has six numbers. They nearly take up the errors of three points
+/// and fewer, nine numbers and fewer, so that the residual says nothing.
 std::optional<Reason> too_few_cuts(const ProgramCompensation& compensation) {
   constexpr std::ptrdiff_t fewest = 4;
   const auto cuts =

@@ -12,7 +12,7 @@ namespace trueaxis {
 namespace machine_job {
 namespace {
 
-/// The cutting moves of the program; of one of rapid moves only, all.
+/// The cutting moves of the program, or all if it has rapid moves only.
 std::vector<ProgramEnd> cutting(const std::vector<ProgramEnd>& ends) {
   std::vector<ProgramEnd> cuts;
   for (const ProgramEnd& end : ends)

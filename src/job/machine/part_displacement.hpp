@@ -39,7 +39,7 @@ class RigidFit {
   };
   /// Displacement of a point by `Sums::bodies`.
   Eigen::Matrix3Xd at(const Eigen::Vector3d& point_mm, const Eigen::MatrixXd& bodies) const;
-  /// What is left of them beside it.
+  /// The residual of them after it.
   Displacements without(const Displacements& displacements_mm, const Body& body) const;
 
  private:

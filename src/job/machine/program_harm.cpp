@@ -27,7 +27,7 @@ struct Block {
   std::size_t line = 0;
 };
 
-/// Where the program cuts; of one that only travels, where it goes.
+/// Where the program cuts, or where it goes if it only travels.
 std::vector<Block> blocks_of(const Machine& machine, std::string text, const std::string& file) {
   const ProgramAxes axes(machine);
   const nc::Program program =
@@ -105,7 +105,7 @@ MatrixXd datums(const MachineModel& nominal, const std::vector<Block>& blocks) {
   return linear::orthonormal_basis(out, 1e-9);
 }
 
-/// Displacements of the tip by every uncertain number, three rows a block, beside the part's
+/// Displacements of the tip by every uncertain number, three rows per block, after the part's
 /// datum.
 MatrixXd displacements(const Machine& machine, const MachineDiagnosis& diagnosis,
                        const std::vector<Block>& blocks) {
@@ -156,7 +156,7 @@ std::string plan_of_hidden(const ProgramHarm& harm, const MachineDiagnosis& diag
 void choose_next(const ProgramHarm& harm, MachineDiagnosis& diagnosis) {
   if (diagnosis.next_plan == "B1") return;
   diagnosis.next_plan.clear();
-  double best = 0.01 * harm.U.value / 60.0;  // a hundredth in an hour is no advice
+  double best = 0.01 * harm.U.value / 60.0;  // a hundredth in an hour is not worth advising
   for (std::size_t i = 0; i < harm.plans.size(); ++i) {
     const double lowered = (harm.U.value - harm.plans[i].U.value) / diagnosis.plans[i].minutes;
     if (lowered > best) best = lowered, diagnosis.next_plan = harm.plans[i].plan;

@@ -24,12 +24,12 @@ Eigen::Vector3d nominal_tip(const MachineModel& model, const Stand& stand);
 Eigen::Vector3d displaced_tip(const MachineModel& model, const AxisPositions& axes,
                               const Stand& stand);
 
-/// What the uncertainty of the errors makes of the tip in a part that is probed where it stands:
-/// every independent cause moves all tips, and its displacement of the part as a whole, which the
-/// measurement cannot tell, is taken off (Eq. 221).
+/// What the uncertainty of the errors makes of the tip in a part that is probed where it is. Every
+/// independent cause moves all tips; its displacement of the part as a whole, which the measurement
+/// cannot tell, is subtracted (Eq. 221).
 class ProbedTipUncertainty {
  public:
-  /// @param part of these stands' nominal tips; of very many every so manieth is taken
+  /// @param part of these positions' nominal tips; very many are thinned evenly
   ProbedTipUncertainty(const MachineModel& model, const RigidFit& part,
                        const std::vector<Stand>& stands);
 
@@ -45,7 +45,7 @@ class ProbedTipUncertainty {
   Eigen::MatrixXd bodies_;
 };
 
-/// Of every stand, of very many that of the last before it that is looked at.
+/// For every position; if they were thinned, that of the last one before it that counts.
 std::vector<double> u_mm_of(const ProbedTipUncertainty& uncertainty,
                             const std::vector<Stand>& stands);
 

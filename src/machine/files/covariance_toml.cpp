@@ -89,7 +89,7 @@ std::optional<MatrixXd> square_of(const std::vector<double>& numbers, Index n) {
   return out;
 }
 
-/// Why a matrix is no covariance; "": it is one.
+/// Why a matrix is not a covariance; "": it is one.
 std::string trouble_of(const MatrixXd& matrix, const std::vector<UncertainAmount>& amounts) {
   const auto name = [&](Index i) { return to_string(amounts[static_cast<std::size_t>(i)]); };
   const VectorXd u = matrix.diagonal().cwiseMax(0.0).cwiseSqrt();

@@ -12,8 +12,8 @@ namespace trueaxis {
 /// plausible; those of a workpiece 10 mm and 5 degrees.
 double largest_size(const ErrorName& name);
 
-/// How large a function becomes: of a polynomial over `range`, of a table at its points, of a
-/// Fourier sum the sum of its amplitudes.
+/// How large a function becomes: a polynomial over `range`, a table at its points, a Fourier sum by
+/// the sum of its amplitudes.
 struct PositionRange {
   double low = 0.0, high = 0.0;  ///< mm or rad
 };
@@ -25,7 +25,7 @@ double size_of(const ErrorFunction& function, const PositionRange& range);
 PositionRange range_of(const ErrorFunction& function, const ErrorName& name,
                        const Machine& machine);
 
-/// Why `size` is no size of this error, and what to do; "": it may be.
+/// Why `size` is not a size of this error, and what to do; "": it may be.
 std::string size_trouble(const ErrorName& name, double size);
 
 /// Whether some error, its u or its variance is larger than that.

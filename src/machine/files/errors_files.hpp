@@ -12,7 +12,7 @@
 
 namespace trueaxis {
 
-/// What is to be said of errors files that do not say it.
+/// The remarks about errors files that do not state it.
 struct ErrorsFiles {
   std::optional<ErrorSign> foreign_sign{};  ///< of component errors in ISG and Etalon files
   bool large_errors = false;  ///< they are larger than machines have (error_sizes.hpp), and meant
@@ -39,10 +39,10 @@ ErrorsOfFiles read_errors_files(std::span<const std::string> paths, const Machin
 ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& machine,
                        const ErrorsFiles& said = {});
 
-/// Reads `trueaxis.errors/1` (machine.md) of a machine. Errors that are said to be of another
-/// one are refused, and those of a size that machines have not unless the file or `large_errors`
-/// says that they are so large.
-/// @throws InputError with every diagnostic: file, line, column, what to do.
+/// Reads `trueaxis.errors/1` (machine.md) of a machine. Errors that state another machine are
+/// refused. So are those of a size that machines do not have, unless the file or `large_errors`
+/// says that they are so large. @throws InputError with every diagnostic: file, line, column, what
+/// to do.
 ErrorModel read_errors_toml(const std::string& path, const Machine& machine,
                             bool large_errors = false);
 /// The same of what the file holds.
@@ -56,26 +56,25 @@ std::string errors_toml(const ErrorModel& errors, const Machine* of = nullptr);
 /// Reads, of what a file holds, the Etalon exchange format, variant "Vendor": `//` comments, a
 /// block `[NAME]` with `VALUE = v` or `Gridpoints = {` rows `argument value` `}`; mm and rad,
 /// arguments of rotary axes in degrees. It does not say its sign: `sign` does, and of pivots it
-/// knows nothing (0). Refused are numbers that are no sizes of errors in mm and rad, unless
-/// `large_errors`.
-/// @throws InputError with every diagnostic.
+/// knows nothing (0). Numbers that are not sizes of errors in mm and rad are refused, unless
+/// `large_errors`. @throws InputError with every diagnostic.
 ErrorModel read_etalon(std::string_view content, const std::string& path, const Machine& machine,
                        ErrorSign sign, bool large_errors = false);
 
-/// The same written, component errors as tables of `points` positions where they are none yet.
+/// The same written, component errors as tables of `points` positions if they are not tables yet.
 std::string etalon_text(const ErrorModel& errors, const Machine& machine, ErrorSign sign,
                         int points);
 
 /// Reads, of what a file holds, the ISG table of a control's volumetric compensation: `//`
 /// comments, blocks parted by a line `#`, each a header of an axis and its errors (`X EXX EYX …`)
 /// or of location errors with one row; separated by blanks or tabs; mm and rad, arguments of rotary
-/// axes in degrees. Errors as functions of several axes are refused, and so are numbers that are no
-/// sizes of errors in mm and rad, unless `large_errors`. It does not say its sign: `sign` does.
+/// axes in degrees. Errors as functions of several axes are refused, and so are numbers that are
+/// not sizes of errors in mm and rad, unless `large_errors`. It does not say its sign: `sign` does.
 /// @throws InputError with every diagnostic.
 ErrorModel read_isg_csv(std::string_view content, const std::string& path, const Machine& machine,
                         ErrorSign sign, bool large_errors = false);
 
-/// The same written, component errors at `points` positions where they are no tables yet.
+/// The same written, component errors at `points` positions if they are not tables yet.
 std::string isg_csv_text(const ErrorModel& errors, const Machine& machine, ErrorSign sign,
                          int points);
 
@@ -85,7 +84,7 @@ std::string isg_csv_text(const ErrorModel& errors, const Machine& machine, Error
 std::string errors_json(const Machine& machine, const ErrorModel& errors, const AxisPositions& axes,
                         const std::vector<std::string>& remarks);
 
-/// The same for a terminal, µm and µrad; what is 0 is left out.
+/// The same for a terminal, µm and µrad, without zeros.
 std::string errors_text(const Machine& machine, const ErrorModel& errors,
                         const AxisPositions& axes);
 

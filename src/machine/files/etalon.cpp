@@ -103,7 +103,7 @@ class EtalonReader {
     add(grid_);
   }
 
-  /// Of a block's numbers the first that is no size of its error.
+  /// The first of a block's numbers that is not a size of its error.
   void check_size(double value) {
     const std::string trouble = name_ && !large_errors_ ? size_trouble(*name_, value) : "";
     if (!trouble.empty() && !std::exchange(size_said_, true)) complain("(mm and rad) " + trouble);

@@ -112,7 +112,7 @@ class BlockReader {
     errors.terms.push_back({name, std::move(table)});
   }
 
-  /// At the first row whose number is no size of the column's error.
+  /// At the first row whose number is not a size of the column's error.
   template <class Complain>
   void check_size(std::size_t i, const Complain& complain) const {
     const auto name = parse_error_name(block_.header[i]);

@@ -21,8 +21,9 @@ std::string machine_identity_toml(const Machine& machine);
 /// it.
 void check_machine_identity(TomlTable& root, const Machine& machine);
 
-/// What is to be said of a file of `errors` without that table (ISG and Etalon files have no place
-/// for it); "" of one that has it, and of errors of a workpiece alone, which hold on any machine.
+/// The remark about a file of `errors` without that table (ISG and Etalon files have no place for
+/// it). It is "" for one that has it, and for errors of a workpiece alone, which hold on any
+/// machine.
 std::string machine_not_said(const std::string& path, const ErrorModel& errors,
                              const Machine& machine);
 

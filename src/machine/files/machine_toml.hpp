@@ -7,8 +7,8 @@
 
 namespace trueaxis {
 
-/// A machine as a file says it; of a D-H file also the errors of its parameters, as location errors
-/// of the axes and the spindle (no terms: it says none).
+/// A machine as a file states it. A D-H file also gives the errors of its parameters, as location
+/// errors of the axes and the spindle (no terms: it states none).
 struct MachineFile {
   Machine machine;
   ErrorModel parameter_errors;

@@ -10,7 +10,7 @@
 namespace trueaxis {
 
 /// A small table of numbers under a header, read strictly: separators `,` `;` tab or blanks,
-/// comments behind `#`.
+/// comments after `#`.
 struct NumberTable {
   struct Row {
     std::size_t line = 0;

@@ -14,7 +14,7 @@ namespace trueaxis {
 std::vector<AxisPositions> read_positions_csv(const std::string& path, const Machine& machine);
 
 /// Reads tool positions: a header `x,y,z,i,j,k` (mm; `x[mm]` too), a row a point, the direction of
-/// any length but 0; a column `twist[deg]`, which `pose` writes, is left out. @throws InputError
+/// any length but 0; a column `twist[deg]`, which `pose` writes, is ignored. @throws InputError
 std::vector<ToolTarget> read_tool_targets_csv(const std::string& path);
 
 /// `x[mm],y[mm],z[mm],i,j,k,twist[deg]`: every digit of the doubles; twist about the tool's

@@ -71,8 +71,8 @@ void read_denavit_hartenberg(TomlTable& root, MachineFile& file);
 void read_program_parts(TomlTable& root, Machine& machine, bool mode_needed);
 
 /// The table [covariance] of an errors file (machine.md) into `errors`, whose terms give up
-/// the u that it has. Complains of amounts that are none or twice, of a matrix that is none of a
-/// covariance, of a u that is another one than the matrix', and, unless `large_errors`, of one that
+/// the u that it has. Complains of amounts that are unknown or occur twice, of a matrix that is not
+/// a covariance, and of a u that differs from the matrix. Unless `large_errors`, also of one that
 /// no error of a machine has.
 void read_covariance(TomlTable& root, const Machine& machine, bool large_errors,
                      ErrorModel& errors);

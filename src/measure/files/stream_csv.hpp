@@ -22,7 +22,7 @@ struct StreamReadOptions {
   bool several_sensors = false;              ///< columns X_M1, X_M2 … may be read
   std::vector<double> sensor_angles_rad{};   ///< of a stream that does not say `sensor_angles`
   std::size_t max_diagnostics = 1000;        ///< further ones are counted, not listed
-  bool drop_invalid = false;  ///< rows without a value (csv_is_no_value) are left out, and said
+  bool drop_invalid = false;  ///< rows without a value (csv_is_no_value) are excluded and reported
   /// The command that was typed, without what says how a stream is read; empty: none, or a job.
   std::vector<std::string> typed{};
 };
@@ -38,9 +38,9 @@ ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& op
 ProbeStream read_stream_csv_text(std::string_view text, const std::string& source,
                                  const StreamReadOptions& options = {});
 
-/// The same of a head (comments and the line of the columns) and rows of numbers as they would
-/// stand below it; `text_of` is a row's text, for messages, `line_of` the line in the file `source`
-/// of a line of head and rows (0: none).
+/// The same for a head (comments and the line of the columns) and the rows of numbers below it.
+/// `text_of` is a row's text, for messages. `line_of` is the line in the file `source` of a line of
+/// head and rows (0: none).
 ProbeStream read_stream_rows(std::string_view head, std::span<const double> numbers,
                              const std::function<std::string(std::size_t)>& text_of,
                              const std::string& source, const StreamReadOptions& options,

@@ -71,7 +71,7 @@ void take_set_ups(const CsvHeader& header, const CsvKnownMetadata& known, ProbeS
   }
 }
 
-/// What a unit that was taken for another makes of a speed: `factor` is that of C over t.
+/// What a unit that was mistaken for another makes of a speed: `factor` is that of C over t.
 struct MistakenUnit {
   double factor;
   CsvRole column;

@@ -119,7 +119,7 @@ class HeaderParser {
   CsvDiagnostics& diagnostics_;
 };
 
-/// X_M1, X_M2 …: numbered without a gap, of one unit, and without an X_M or Z_M beside them.
+/// X_M1, X_M2 …: numbered without a gap, of one unit, and without an X_M or Z_M.
 void check_sensors(CsvHeader& header, CsvDiagnostics& diagnostics) {
   const std::size_t sensors = header.sensors();
   const CsvColumn* first = nullptr;

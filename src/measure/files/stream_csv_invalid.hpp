@@ -11,7 +11,7 @@
 
 namespace trueaxis {
 
-/// Whether a field that is no number holds no value at all: empty, NaN, n/a, ---, or what a
+/// Whether a field that is not a number has no value at all: empty, NaN, n/a, ---, or what a
 /// spreadsheet writes of a formula that failed (#WERT!, #DIV/0!). "12,5" and "12.5 mm" hold one.
 bool csv_is_no_value(std::string_view field);
 
@@ -21,15 +21,15 @@ bool csv_is_row_of_no_value(const std::vector<std::string_view>& fields, std::si
 /// The rows of a file that hold no value somewhere, and that alone is wrong with them.
 class CsvInvalidRows {
  public:
-  /// @param field what stands where a value should be, as the file has it
+  /// @param field what is in the place of a value, as the file has it
   void add(std::size_t line, std::string_view field);
   bool any() const { return !lines_.empty(); }
   std::size_t count() const { return lines_.size(); }
 
-  /// "3 rows are left out (--drop-invalid), in lines 5, 9-11: 'NaN', empty".
+  /// The remark with how many rows are excluded, in which lines, and why.
   std::string left_out(const std::function<std::size_t(std::size_t)>& line_of = {}) const;
 
-  /// With what command they are left out; empty where there are none, or hardly any others.
+  /// The command that excludes them; empty if there are none, or hardly any others.
   std::string remedy(const std::string& file, const StreamReadOptions& options,
                      const std::vector<std::string>& words, std::size_t good) const;
 
@@ -38,7 +38,7 @@ class CsvInvalidRows {
   std::vector<std::string> what_;  // different ones, in the order of the file
 };
 
-/// Why so many rows are not left out even if asked; empty where they are fewer than the others.
+/// Why so many rows are not excluded even on request; empty if they are fewer than the others.
 std::string csv_too_many_invalid(std::size_t invalid, std::size_t good);
 
 }  // namespace trueaxis

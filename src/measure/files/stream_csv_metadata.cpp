@@ -29,7 +29,7 @@ std::optional<SetupKey> parse_key(std::string_view key) {
   return SetupKey{*number, key};
 }
 
-/// The keys after the number, what may stand there, and where it goes.
+/// The keys after the number, what may be there, and where it goes.
 struct Quantity {
   std::string_view what;
   UnitKind quantity;

@@ -30,7 +30,7 @@ struct CsvKnownMetadata {
   std::map<int, Place> set_up_places;  ///< where each is first spoken of
 };
 
-/// Reads "key: value" lines behind '#'. A key is one word of letters, digits, '_', '.', '-'. All
+/// Reads "key: value" lines after '#'. A key is one word of letters, digits, '_', '.', '-'. All
 /// keys go to `metadata` (a key that comes again is joined by "; "), known ones, in any case of
 /// letters, are read as well. What looks like a known key is a diagnostic (csv_comment_trouble);
 /// other comments, and those that begin with "##", are passed over.
@@ -40,7 +40,7 @@ class CsvMetadataReader {
 
   /// `line` starts with blanks and '#'.
   void comment(std::string_view line, std::size_t line_number);
-  /// A comment behind the header or a row, from byte `hash` of `line`: free text only.
+  /// A comment after the header or a row, from byte `hash` of `line`: free text only.
   void comment_behind(std::string_view line, std::size_t hash, std::size_t line_number);
 
   CsvKnownMetadata known;
@@ -66,16 +66,16 @@ bool csv_is_setup_key(std::string_view key);
 std::string csv_take_setup(std::string_view key, std::string_view value,
                            std::map<int, SetUp>& set_ups);
 
-/// Number of the set-up that a key which was taken is of.
+/// Number of the set-up that a key belongs to.
 int csv_setup_number(std::string_view key);
 
 /// Makes the metadata of set-ups say what the stream's set-ups say; `stated` is what they said.
 void csv_put_setups(const ProbeStream& stream, const std::map<int, SetUp>& stated,
                     std::map<std::string, std::string>& metadata);
 
-/// Judges the text behind '#' of a comment that holds no known key as it is spelt. Prose is free;
-/// what looks like a known key (another spelling, '=' or blanks for ':', a letter or two wrong, a
-/// word that means one), or says a unit or convention for the whole file, must not be passed over.
+/// Judges the text after '#' of a comment that holds no known key as it is spelt. Prose is free.
+/// What looks like a known key must not be passed over: another spelling, '=' or blanks for ':', a
+/// letter or two wrong, a word that means one. Nor must a unit or convention for the whole file.
 /// @returns what is wrong and what to write instead, empty for free text. Text that begins with a
 /// further '#' is always free.
 std::string csv_comment_trouble(std::string_view text);
@@ -84,7 +84,7 @@ std::string csv_comment_trouble(std::string_view text);
 /// thousandth of a turn, and jumps by more than half a turn.
 bool csv_is_wrapped(const std::vector<double>& c, double turn);
 
-/// From the numbers as they stand in the file to mm, rad (running), s and radii. What contradicts
+/// From the numbers as they are in the file to mm, rad (running), s and radii. What contradicts
 /// is a diagnostic; nothing is changed then.
 void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
                 const StreamReadOptions& options, ProbeStream& stream, CsvDiagnostics& diagnostics);

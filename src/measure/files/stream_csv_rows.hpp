@@ -13,7 +13,7 @@
 
 namespace trueaxis {
 
-/// Appends rows to the columns of a stream, as the numbers stand in the file (units come later).
+/// Appends rows to the columns of a stream, with the numbers of the file (units come later).
 class CsvRows {
  public:
   CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& diagnostics,
@@ -32,7 +32,7 @@ class CsvRows {
   /// Reads a row whatever it looks like (no line end, no comment); what is wrong is a diagnostic.
   void any_row(std::string_view line, std::size_t line_number);
 
-  /// Rows that hold no value somewhere; with `drop_invalid` they are no mistakes.
+  /// Rows that hold no value somewhere; with `drop_invalid` they are not mistakes.
   const CsvInvalidRows& invalid() const { return invalid_; }
   /// Whether a line that begins with '#' is such a row.
   bool is_row_of_no_value(std::string_view line);

@@ -45,7 +45,7 @@ Row parse_row(std::string_view line) {
 /// Running angle next to `before`, in the sense of the cut; a running column stays as it is.
 double unwrapped(double c_rad, double before, int sense) {
   const double ahead = std::fmod(sense * (c_rad - before), two_pi);
-  constexpr double backwards = -1e-9;  // rounding of equal angles is no turn
+  constexpr double backwards = -1e-9;  // rounding of equal angles is not a turn
   return before + sense * (ahead < backwards ? ahead + two_pi : ahead);
 }
 

@@ -9,8 +9,8 @@
 
 namespace trueaxis::virtual_machine {
 
-/// An arc in a plane of two of X Y Z, as complex numbers first + i second: of positions of the
-/// axes, or of the tip. What lies across the plane, and every rotary axis, goes evenly with the
+/// An arc in a plane of two of X Y Z, as complex numbers first + i second. It is of positions of
+/// the axes, or of the tip. What lies across the plane, and every rotary axis, goes evenly with the
 /// angle.
 struct ArcWay {
   std::size_t first = 0, second = 1;  ///< G17: X Y, G18: Z X, G19: Y Z

@@ -12,7 +12,7 @@ namespace trueaxis::virtual_machine {
 namespace {
 
 /// What of a line is carried out: in upper case, without blanks, comments and the sign of a block
-/// that may be left out.
+/// that may be skipped.
 std::string carried_out(const std::string& line) {
   std::string out;
   bool comment = false;
@@ -28,7 +28,7 @@ std::string carried_out(const std::string& line) {
   return out.substr(numbered ? 2 : 1);
 }
 
-/// Sorts "G1X100.Y-.5"; the place of what is no word, else npos.
+/// Sorts "G1X100.Y-.5"; the place of what is not a word, else npos.
 std::size_t take_words(const std::string& text, BlockWords& block) {
   static constexpr const char* of_numbers = "+-.0123456789";
   for (std::size_t at = 0; at < text.size();) {

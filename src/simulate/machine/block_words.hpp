@@ -22,7 +22,7 @@ struct BlockWords {
 };
 
 /// Takes a program of ISO 6983 words apart: comments `( )` and `;`, `/` and `%` as they are usual.
-/// A block without words is left out. What is no word is added to `wrong`.
+/// A block without words is dropped. What is not a word is added to `wrong`.
 std::vector<BlockWords> words_of_blocks(std::string_view program, const std::string& file,
                                         std::vector<Diagnostic>& wrong);
 

@@ -28,20 +28,20 @@ struct Ends {
   Homogeneous bed_from_spindle;  ///< with the spindle's own location errors
 };
 
-/// At commanded axes. `lost`: what each axis stands beside its command, added to its own error
+/// At commanded axes. `lost`: how far each axis is off its command, added to its own error
 /// (lost motion of a reversal), mm or rad.
 /// @param errors no terms: the nominal machine
 Ends ends(const Machine& machine, const ErrorModel& errors, const AxisPositions& axes,
           const AxisPositions& lost = {});
 
-/// What the tool does against the workpiece beside the command of one axis, along or about the
-/// axis' own direction: what a read-out between the two shows, mm or rad.
+/// What the tool does against the workpiece in addition to the command of one axis, along or about
+/// the axis' own direction: what a read-out between the two shows, mm or rad.
 double own_error(const Machine& machine, const ErrorModel& errors, AxisName axis, double position);
 
-/// Where the part is on its table beside where it should be.
+/// How far the part on its table is from where it should be.
 Homogeneous part_on_table(const ErrorModel& errors);
 
-/// Lost motion: an axis that comes from above stands by its reversal too high, and so it stays
+/// Lost motion: an axis that comes from above is too high by its reversal, and so it stays
 /// until it moves again.
 void take_lost_motion(const AxisPositions& reversal, const AxisPositions& from,
                       const AxisPositions& to, AxisPositions& lost);

@@ -132,7 +132,7 @@ class Control {
     return block.of_letter.at(letters[k]) * (k < 3 ? unit_mm_ : rad_per_deg);
   }
 
-  /// With G43 the tip stands where, without a tool, the gauge point would.
+  /// With G43 the tip is where, without a tool, the gauge point would be.
   double length_on(std::size_t k) const {
     if (length_ != 43.0) return 0.0;
     const Vector3 &way = machine_.find(static_cast<AxisName>(k))->direction,
@@ -172,7 +172,7 @@ class Control {
     move(block, to, tip_goes, machine_zero, arc);
   }
 
-  /// X Y Z of what words say where the machine stands: the tip, or the words of the axes.
+  /// X Y Z of the words for the machine's position: the tip, or the words of the axes.
   Vector3 lead() const {
     if (along_tip()) return tool_in_part(machine_, {}, stands_, setting()).tip_mm;
     Vector3 out = linear_part(stands_);

@@ -31,9 +31,9 @@ struct ControlMove {
 /// does. Words that are not given leave an axis where it is, in mode tip the tip where it is; after
 /// G43, G43.4, G49 and another work offset nothing moves until a word says so. G28 and G30 take the
 /// axes that are named (all, where none is) to 0, G53 takes words for positions of the axes. At
-/// first all axes stand at 0, or where [program] start of the machine says. A rapid move has
-/// 10 000 mm/min or °/min; F of a move without a way of the tip counts in degrees; dwells have s.
-/// @throws InputError with all that this control cannot do, each with its line
+/// first all axes are at 0, or where [program] start of the machine says. A rapid move has 10 000
+/// mm/min or °/min; F of a move without a way of the tip counts in degrees; dwells have s. @throws
+/// InputError with all that this control cannot do, each with its line
 std::vector<ControlMove> moves_of_program(const Machine& machine, std::string_view program,
                                           const std::string& file);
 

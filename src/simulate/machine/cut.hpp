@@ -49,7 +49,7 @@ struct Cut {
 /// the nominal program: at the ends of its blocks tip and direction, between those of a G1 block
 /// the straight line from tip to tip. The program may have more moves than the
 /// nominal one: pieces of its blocks.
-/// @throws InputError with what the control cannot do; where a program is no form of the nominal
+/// @throws InputError with what the control cannot do; or if a program is not a form of the nominal
 /// one
 Cut cut(const Machine& machine, const ErrorModel& errors, const CutPlan& plan);
 

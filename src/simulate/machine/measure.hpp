@@ -16,7 +16,7 @@ enum class MeasurementKind {
   axis    ///< commanded against actual position of one axis
 };
 
-/// What goes wrong while measuring or cutting and is no error of the machine's geometry.
+/// What goes wrong while measuring or cutting and is not an error of the machine's geometry.
 struct Disturbance {
   AxisPositions reversal{};    ///< what an axis loses when it is approached from above, mm or rad
   Vector3 drift_mm_per_s{};    ///< of the ball or the part against the tip, linear in time

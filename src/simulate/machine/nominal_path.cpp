@@ -14,7 +14,7 @@
 namespace trueaxis::virtual_machine {
 namespace {
 
-/// Of tips, and of directions at 100 mm.
+/// The distance of tips, and of directions at 100 mm.
 double apart_mm(const ToolInPart& a, const ToolInPart& b) {
   constexpr double lever_mm = 100.0;
   return distance_mm(a.tip_mm, b.tip_mm) + lever_mm * distance_mm(a.direction, b.direction);
@@ -47,8 +47,8 @@ Vector3 tip_on_way(const Machine& machine, const ControlMove& move, double share
 constexpr std::size_t arc_parts = 64;
 constexpr double beyond_any_mm = 1e9;
 
-/// What of a block is no position: its words but those of axes and F (of which pieces under G93
-/// have their own), G1 standing for an arc. Empty for a line of axis words.
+/// What of a block is not a position: its words except those of axes and F (of which pieces under
+/// G93 have their own), with G1 for an arc. Empty for a line of axis words.
 std::string other_words(const BlockWords& block) {
   std::string text;
   for (const double code : block.g)
@@ -72,7 +72,7 @@ class Pairing {
     }
     for (const ControlMove& move : nominal)
       nominal_ends_.push_back(tool_in_part(machine, {}, move.to, move.setting));
-    // Of each move the next that says the same, with lines of axis words alone between.
+    // For each move the next that says the same, with lines of axis words alone between.
     next_alike_.assign(moves.size(), moves.size());
     for (std::size_t i = 0; i < moves.size(); ++i) {
       std::size_t next = i + 1;
@@ -152,7 +152,7 @@ double NominalPath::off_mm(const Vector3& tip_mm) const {
                    : off_beside_mm(tip_mm, nearest);
 }
 
-/// The foot of the perpendicular lies beside the nearest point: thirds are cut off.
+/// The foot of the perpendicular lies next to the nearest point: thirds are cut off.
 double NominalPath::off_beside_mm(const Vector3& tip_mm, std::size_t nearest) const {
   double low = static_cast<double>(nearest == 0 ? 0 : nearest - 1) / arc_parts,
          high = static_cast<double>(std::min(nearest + 1, arc_parts)) / arc_parts;

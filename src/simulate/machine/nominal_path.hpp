@@ -8,8 +8,8 @@
 
 namespace trueaxis::virtual_machine {
 
-/// What the tip should cut in a move of the nominal program: of a straight block the line between
-/// the tips at its ends, of an arc the way of the nominal machine's tip.
+/// What the tip should cut in a move of the nominal program. For a straight block it is the line
+/// between the tips at its ends, for an arc the way of the nominal machine's tip.
 class NominalPath {
  public:
   NominalPath() = default;
@@ -29,10 +29,9 @@ Vector3 lead_of(const Machine& machine, const ControlMove& move);
 
 /// Of every move of a program the index of the move of the nominal program to which it belongs.
 /// Pieces of a block come before the move that ends it: this has the other words of the block. The
-/// first piece may have these too, and of lines of axis words all have: then the block ends where
-/// the tool of the machine with its errors, which a compensated program makes up for, is nearer to
-/// its end than at the next such move.
-/// @throws InputError (of `file`) where the program has not all moves of the nominal one
+/// first piece may have these too, and all lines of axis words have them. The block then ends where
+/// the tool of the machine with its errors is nearer to its end than at the next such move. @throws
+/// InputError (of `file`) where the program has not all moves of the nominal one
 std::vector<std::size_t> nominal_moves_of(const Machine& machine, const ErrorModel& errors,
                                           std::span<const ControlMove> moves,
                                           std::span<const ControlMove> nominal,

@@ -28,7 +28,7 @@ ToolInPart tool_in_part(const Machine& machine, const ErrorModel& errors, const 
     tip[i] -= beside.part_drift_mm[i];
     holder[i] += (1.0 - setting.tool_length_mm) * machine.tool.direction[i];
   }
-  // A point of the holder 1 mm behind the tip says where the tool points.
+  // A point of the holder 1 mm above the tip says where the tool points.
   holder = transformed(at.bed_from_spindle, holder);
   ToolInPart out{transformed(part_from_bed, tip), {}};
   for (std::size_t i = 0; i < 3; ++i) holder[i] -= beside.part_drift_mm[i];

@@ -10,8 +10,8 @@ struct ToolInPart {
   Vector3 tip_mm{}, direction{};  ///< unit, from the tip to the holder
 };
 
-/// What an axis stands beside its command, and the part beside its place, apart from the errors of
-/// the machine's geometry.
+/// How far an axis is off its command, and the part off its place, apart from the errors of the
+/// machine's geometry.
 struct BesideCommand {
   AxisPositions lost{};     ///< mm, rad
   Vector3 part_drift_mm{};  ///< of the part against the tip, in M

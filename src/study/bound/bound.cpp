@@ -57,7 +57,7 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// One column more for every gauge zero: what is taken off all readings of a clamping.
+/// One column more for every gauge zero: what is subtracted from all readings of a clamping.
 void append_gauge_zeros(const Estimable& model, Eigen::MatrixXd& jacobian) {
   const std::vector<std::size_t>& zero_of = model.gauge_zero_of();
   if (zero_of.empty()) return;
@@ -117,7 +117,7 @@ std::optional<StateSpace> state_space(const Noise& noise) {
   return std::nullopt;
 }
 
-/// Of the uniform part and of rounding, mm².
+/// The variance of the uniform part and of rounding, mm².
 double white_variance(const CleanStream& clean, const Noise& noise) {
   return (noise.uniform_mm * noise.uniform_mm +
           0.25 * clean.sensor.quantisation_mm * clean.sensor.quantisation_mm) /

@@ -34,13 +34,13 @@ struct Bound {
 };
 
 /// σ²(JᵀJ)⁻¹ with J the derivatives of the virtual lathe's clean readings with respect to the
-/// surface's parameters, by Richardson's central differences, the noise whitened along the stream
-/// (Kalman's innovations, so an autoregression and a white part are exact): nothing of the model
-/// that is fitted enters. Every clamping has an axis of its own and, with a relative gauge, a zero
-/// of its own, as in the fit. Effects are taken as known, outliers as recognised and free. NaN
+/// surface's parameters, by Richardson's central differences. The noise is whitened along the
+/// stream (Kalman's innovations, so an autoregression and a white part are exact). Nothing of the
+/// fitted model enters. Every clamping has an axis of its own and, with a relative gauge, a zero of
+/// its own, as in the fit. Effects are taken as known, outliers as recognised and free. NaN
 /// everywhere where the readings do not determine the parameters and where the metadata tell one
-/// clamping but the axis moved; the radius under a relative gauge (Eq. 121).
-/// @param surface fitted: that of the part, or "section"
+/// clamping but the axis moved; the radius under a relative gauge (Eq. 121). @param surface fitted:
+/// that of the part, or "section"
 Bound bound_of(const virtual_lathe::Scenario& scenario, SurfaceKind surface);
 
 /// "cramer_rao" or "gauss_markov".
@@ -61,9 +61,9 @@ struct EstimatedParameter {
   bool is_length = true;  ///< mm; else an angle or a direction cosine
 };
 
-/// A scenario written so that everything that is estimated is a number of its own: every clamping
-/// (the set-ups from one move of the part to the next, as the metadata tells) has its axis, and a
-/// cone is given by its radius in the middle of all readings.
+/// A scenario written so that everything that is estimated is a number of its own. Every clamping
+/// (the set-ups from one move of the part to the next, by the metadata) has its axis. A cone has
+/// its radius in the middle of all readings.
 class Estimable {
  public:
   /// Nothing if set-ups of one clamping have axes of their own: no surface of the model is that.

@@ -55,12 +55,12 @@ double apex_of(const Part& part) {
                         : part.radius_at_mm - part.radius_mm / tangent;
 }
 
-/// Of a cone, `along` the axis from the spindle's origin.
+/// For a cone, `along` the axis from the spindle's origin.
 double radius_at(const Part& part, double apex, double along) {
   return std::abs(apex - along) * std::tan(std::abs(part.half_angle_rad));
 }
 
-/// n·p = d of the face as it stands last: through its origin's height, turned about that origin.
+/// n·p = d of the face as it is last: through its origin's height, turned about that origin.
 std::vector<double> face_of(const Scenario& scenario) {
   const Part& part = scenario.part;
   const Chucking setup = last_chucking(scenario);

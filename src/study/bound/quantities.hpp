@@ -10,8 +10,8 @@
 
 namespace trueaxis::study {
 
-/// What is compared with the truth: the surface's parameters as they are reported (edge units) and,
-/// of a cone or cylinder, where its axis runs at both ends of the probed length (x_at_min_z …) and
+/// What is compared with the truth: the surface's parameters as they are reported (edge units). For
+/// a cone or cylinder also where its axis runs at both ends of the probed length (x_at_min_z …) and
 /// the radius in its middle (a cone's radius_mid).
 struct Quantity {
   std::string name, unit;
@@ -27,7 +27,7 @@ struct Probed {
 };
 Probed probed_length(const ProbeStream& stream);
 
-/// Of the part as it stands in the set-up of the highest number, in the order of quantities(); NaN
+/// For the part as it is in the set-up of the highest number, in the order of quantities(); NaN
 /// where there is none (the apex of a cone of half angle 0). A section lies in the middle of
 /// `probed`.
 std::vector<double> true_values(const virtual_lathe::Scenario& scenario, const Probed& probed,

@@ -154,7 +154,7 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const PlanSearch& search
     Scenario slow = scenario;
     if (feed) {
       slow = PlanSearch::with(scenario, *feed, 1.0);
-      // Passes and turns share the time left beside the pauses: time falls as 1/feed.
+      // Passes and turns share the time left after the pauses: time falls as 1/feed.
       if (task.time_s && measuring_time_s(slow) > *task.time_s) {
         double pauses = 0.0;
         for (const auto& pass : slow.plan.passes) pauses += pass.pause_s;
@@ -173,7 +173,7 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const PlanSearch& search
   });
 }
 
-/// Shortest time that meets the goal; of those that do not, the smallest U.
+/// Shortest time that meets the goal, or if none does, the smallest U.
 PlannedMeasurement quickest(const PlanningTask& task, const PlanSearch& search, bool best_probe) {
   const DesignVariable* feed = find(task.variables, Choice::feed);
   const DesignVariable* length = find(task.variables, Choice::length);

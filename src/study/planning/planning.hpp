@@ -58,8 +58,8 @@ struct PlannedMeasurement {
   double of(Choice choice) const;
 };
 
-/// By the bound; of streams of more than 20 000 readings with independent noise by that of fewer
-/// readings a revolution, scaled by 1/√N, which is within 0.1 % (see stand_in).
+/// By the bound. For streams of more than 20 000 readings with independent noise it is that of
+/// fewer readings per revolution, scaled by 1/√N, which is within 0.1 % (see stand_in).
 PlannedMeasurement planned(const virtual_lathe::Scenario& scenario, double coverage_factor);
 
 /// Repeated simulated measurements of a plan, fitted.
@@ -68,9 +68,9 @@ struct Confirmation {
   double u_expanded_mm = 0.0;  ///< k × RMSE of the axis at its worse end, in its worse direction
   Ends interval_95_mm;         ///< of the same for infinitely many repeats (χ²)
   double stated_mm = 0.0;      ///< mean of the U that the fits state
-  bool at_bound = false;  ///< the bound is within what chance leaves, at 1 % over all confirmations
-  bool misses = false;    ///< the goal, by more than chance leaves: the fits are not efficient
-  bool states_more = false;  ///< than the goal: the user's fit would not show that it is met
+  bool at_bound = false;       ///< the bound is within the scatter, at 1 % over all confirmations
+  bool misses = false;         ///< the goal, by more than the scatter: the fits are not efficient
+  bool states_more = false;    ///< than the goal: the user's fit would not show that it is met
 
   bool good() const { return !misses && !states_more; }
 };
@@ -119,7 +119,7 @@ using PlanningProgress =
 
 /// The same on any number of threads.
 /// @throws InputError for a face (it has no axis), a scenario that cannot be probed, noise without
-/// a bound, or a goal that is none.
+/// a bound, or an invalid goal.
 PlanningAnswer plan_measurement(const PlanningTask& task, const PlanningProgress& progress = {});
 
 }  // namespace trueaxis::study

@@ -26,7 +26,7 @@ std::size_t place_of_ends(const virtual_lathe::Scenario& scenario);
 double measuring_time_s(const virtual_lathe::Scenario& scenario);
 std::size_t readings_of(const virtual_lathe::Scenario& scenario);
 
-/// A plan with its passes and turns, and every reading as good as `readings_each` of the plan's.
+/// A plan with its passes and turns, where every reading counts as `readings_each` of the plan's.
 struct StandIn {
   virtual_lathe::Scenario scenario;
   double readings_each = 1.0;
@@ -51,7 +51,7 @@ class AxisBounds {
 PlannedMeasurement planned(const virtual_lathe::Scenario& scenario, double coverage_factor,
                            AxisBounds& bounds);
 
-/// Tells how far the planning is; may be told on several threads.
+/// Says how far the planning is; may be called on several threads.
 class Steps {
  public:
   explicit Steps(const PlanningProgress& progress) : progress_(progress) {}

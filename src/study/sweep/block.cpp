@@ -85,7 +85,7 @@ struct Prepared {
   }
 };
 
-/// Bit 1: something was found; 2: all that is hidden is in the class of a finding.
+/// Bit 1: something was found; 2: all that is hidden is in the class of a cause.
 std::uint8_t found_by(const Diagnosis& diagnosis,
                       const std::vector<virtual_lathe::Effect>& hidden) {
   const auto in_a_class = [&](const virtual_lathe::Effect& effect) {
@@ -184,7 +184,7 @@ struct CellRunner {
     note_form(prepared, out);
   }
 
-  /// Of the readings as they are, whatever the method; the last quantities of the row.
+  /// The values of the readings as they are, whatever the method; the last quantities of the row.
   void note_form(const Prepared& prepared, BlockResult& out) const {
     if (!sweep.form_upr) return;
     ProbeStream stream = prepared.clean.stream;

@@ -42,7 +42,7 @@ struct BlockResult {
   std::vector<double> error, u;  ///< count × quantities: estimate − truth; NaN: not determined
   std::size_t failures = 0;      ///< repeats without a stream or a converged fit
   std::vector<std::uint8_t> found;  ///< diagnosis: 1 something was found, 2 all that was hidden is
-                                    ///< in the class of a finding, 3 both; else empty
+                                    ///< in the class of a cause, 3 both; else empty
   std::vector<CellFacts> facts;     ///< one in the block of repeat 0, else none
   std::string why;                  ///< of the first repeat that failed
   double seconds = 0.0;             ///< of one thread; no part of the result

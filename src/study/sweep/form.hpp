@@ -14,16 +14,16 @@ struct TurnForm {
   std::array<double, 4> value_mm, u_mm;
 };
 
-/// What a sweep with a pass band compares beside the surface's: `RONt_LSCI` … `RONt_MICI`.
+/// What a sweep with a pass band compares in addition to the surface's: `RONt_LSCI` … `RONt_MICI`.
 std::vector<Quantity> form_quantities();
 
-/// Of the turn in the middle of a stream, with its neighbours for what the surface rises in it.
-/// @param band_upr undulations per revolution
-/// @throws InputError where the readings do not carry the band
+/// The values of the turn in the middle of a stream, with its neighbours for what the surface rises
+/// in it. @param band_upr undulations per revolution @throws InputError where the readings do not
+/// carry the band
 TurnForm form_of_middle_turn(const ProbeStream& stream, const std::array<double, 2>& band_upr,
                              bool bore);
 
-/// The same without noise, of so many readings a turn that more of them change nothing.
+/// The same without noise, with so many readings per revolution that more of them change nothing.
 TurnForm true_form_of_middle_turn(const virtual_lathe::Scenario& scenario,
                                   const std::array<double, 2>& band_upr);
 

@@ -23,7 +23,7 @@ struct Limits {
 constexpr Limits any{}, positive{0.0, infinity, true}, not_negative{0.0, infinity, false},
     fraction{0.0, 1.0, false}, cosine{-1.0, 1.0, true};
 
-/// A number where it stands; a travel is written through its pass.
+/// A number in its place; a travel is written through its pass.
 struct Place {
   double* number = nullptr;
   std::optional<double>* maybe = nullptr;

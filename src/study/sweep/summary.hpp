@@ -35,11 +35,11 @@ struct Row {
   double q05 = 0.0, q50 = 0.0, q95 = 0.0;
   double bound = 0.0;
   double ratio = 0.0;  ///< RMSE / bound
-  /// Of the ratio of infinitely many repeats: χ², where numbers are drawn by the delta method from
-  /// 100 estimates on.
+  /// The interval of the ratio of infinitely many repeats: χ², or if numbers are drawn the delta
+  /// method from 100 estimates on.
   Ends ratio_95;
-  /// Whether a ratio of 1 is within what chance leaves, at 1 % over all rows (Bonferroni); where
-  /// there is an interval.
+  /// Whether a ratio of 1 is within the scatter, at 1 % over all rows (Bonferroni); if there is an
+  /// interval.
   std::optional<bool> at_bound;
   Share coverage;  ///< of |error| ≤ U, k = 2
   double mean_u = 0.0;
@@ -50,7 +50,7 @@ struct CellSummary {
   std::size_t failures = 0;
   std::string why;  ///< of the first failure
   Bound bound;
-  Share found;  ///< of a diagnosis: any finding
+  Share found;  ///< of a diagnosis: any cause
   Share named;  ///< of a diagnosis: every hidden effect in a class; none where none is hidden
   double seconds = 0.0;  ///< of one thread
 };
@@ -65,7 +65,7 @@ struct Summary {
   }
 };
 
-/// Chance that some row of efficient fits is said not to be at its bound.
+/// Probability that a row of efficient fits is reported not to be at its bound.
 inline constexpr double bonferroni_level = 0.01;
 
 /// From the results of all blocks, in any order. Does not depend on who ran them (Eq. 125).

@@ -44,7 +44,7 @@ Scenario with_lists(const Sweep& sweep, std::size_t cell, std::vector<Setting>& 
   return scenario;
 }
 
-/// φ = 0 at the end of an autoregression is no part of it.
+/// φ = 0 at the end of an autoregression does not count.
 void shorten(std::vector<double>& autoregression) {
   while (!autoregression.empty() && autoregression.back() == 0.0) autoregression.pop_back();
 }

@@ -15,7 +15,7 @@
 #include "trueaxis/virtual_lathe.hpp"
 
 /// Robustness studies: a scenario of the virtual lathe over a grid, repeated with other noise, and
-/// what the fit or the diagnosis makes of it, beside the Cramér-Rao bound.
+/// what the fit or the diagnosis makes of it, compared with the Cramér-Rao bound.
 namespace trueaxis::study {
 
 /// Lists that take the place of the scenario's, each as a whole.
@@ -57,7 +57,7 @@ struct Sweep {
   std::string surface;            ///< fitted; empty: that of the part
   std::vector<Setting> settings;  ///< of all cells, before the numbers of the axes
   std::vector<GridAxis> axes;     ///< a grid: every point of one with every point of the others
-  std::vector<Drawn> drawn;       ///< beside the grid
+  std::vector<Drawn> drawn;       ///< outside the grid
   /// Pass band of the roundness that is compared as well, undulations per revolution; none: none
   /// is.
   std::optional<std::array<double, 2>> form_upr{};
@@ -71,7 +71,7 @@ struct Sweep {
 /// Surface that the sweep fits.
 SurfaceKind fitted_surface(const Sweep& sweep);
 
-/// What a sweep compares: the quantities of its surface, of a scenario that cuts what is left, and
+/// What a sweep compares: the quantities of its surface, the residual of a scenario that cuts, and
 /// with a pass band the roundness.
 std::vector<Quantity> compared_quantities(const Sweep& sweep);
 

@@ -11,7 +11,7 @@
 namespace trueaxis {
 
 /// Whether a job is one of a machine: it has a table [machine], or one that only such a job has.
-/// @throws InputError if it is no TOML
+/// @throws InputError if it is not TOML
 bool is_machine_job(std::string_view content, const std::string& path);
 
 /// Reads a job of a machine (docs/reference/machine-job.md) and every file that it names.
@@ -21,15 +21,15 @@ MachineJob read_machine_job_toml(std::string_view content, const std::string& pa
 /// "blade_compensated.nc" of "…/blade.nc"; empty: the job has no program.
 std::string new_program_name(const MachineJob& job);
 
-/// Schema trueaxis.machine_run/1: verdict, where the part stands, ranges, what went in; mm and
-/// degrees, each with its unit.
+/// Schema trueaxis.machine_run/1: verdict, where the part is, ranges, inputs; mm and degrees, each
+/// with its unit.
 std::string machine_job_json(const MachineJobResult& result);
 Json machine_job_object(const MachineJobResult& result);
 
 /// compensation.json of the job. @throws ContractViolation of one without a program
 std::string job_compensation_json(const MachineJobResult& result);
 
-/// For a terminal: the verdict's line, findings, program.
+/// For a terminal: the verdict's line, causes, program.
 std::string machine_job_text(const MachineJobResult& result);
 
 /// The first line of the result.
@@ -39,8 +39,8 @@ std::string machine_verdict_line(const MachineJobVerdict& verdict);
 std::string machine_next_words(const MachineJobVerdict& verdict);
 
 /// The job of a machine in some ten lines for a person: verdict, what to do next, what was found,
-/// what was changed, what the numbers rest on. Lines are not broken, their text stands in column 8.
-/// The tip's U on it is that of the verdict: without what is not known of where the part stands.
+/// what was changed, what the numbers rest on. Lines are not broken, their text begins in column 8.
+/// The tip's U on it is that of the verdict: without what is not known of where the part is.
 std::string machine_job_screen(const MachineJobResult& result);
 
 /// `program` of trueaxis.machine_diagnosis: the file, every effect's largest displacement of the

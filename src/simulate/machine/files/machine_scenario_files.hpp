@@ -13,10 +13,10 @@ namespace trueaxis {
 /// What a scenario with a table `[machine]` is of.
 enum class MachineScenarioKind { none, measurement, cut };
 
-/// A scenario without `[machine]` is none; one with `[cut]` cuts, any other measures.
+/// A scenario without `[machine]` does not belong here; one with `[cut]` cuts, any other measures.
 MachineScenarioKind machine_scenario_kind(const std::string& path);
 
-/// The machine of a scenario, what it does beside its model, and the files that say so.
+/// The machine of a scenario, what it does in addition to its model, and the files that say so.
 struct ScenarioMachine {
   Machine machine;
   ErrorModel errors;
@@ -63,8 +63,8 @@ CutScenario read_cut_scenario_toml(const std::string& path, const std::string& p
 std::string measurement_csv(const Machine& machine, const virtual_machine::MeasurementPlan& plan,
                             const std::vector<virtual_machine::MeasuredRow>& rows);
 
-/// `line,end,t[s],x[mm],y[mm],z[mm],i,j,k,off[um],angle[deg]`, a row a position; numbers that
-/// nothing says are left out (docs/reference/virtual-machine.md).
+/// `line,end,t[s],x[mm],y[mm],z[mm],i,j,k,off[um],angle[deg]`, a row per position; unknown numbers
+/// are empty (docs/reference/virtual-machine.md).
 std::string cut_csv(const virtual_machine::Cut& cut);
 
 /// `trueaxis.cut/1`.

@@ -125,7 +125,7 @@ std::string not_confirmed_text(const PlanningTask& task, const PlanningAnswer& a
     return begin + format(", the simulated fits do not; ask for a bound of {} µm (--goal-um)\n",
                           um(task.goal_mm * best->plan.u_expanded_mm / of_fits_mm(*best)));
   }
-  // More readings a revolution would only correlate: more turns do not.
+  // More readings per revolution would only correlate: more turns do not.
   const double ratio = best->confirmed.stated_mm / task.goal_mm, times = ratio * ratio;
   return begin +
          format(

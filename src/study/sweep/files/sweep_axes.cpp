@@ -13,7 +13,7 @@ namespace {
 using namespace study;
 
 constexpr long long most_points = 10'000;
-constexpr std::size_t most_autoregressions = 2'000;  // more are told by the cell that fails
+constexpr std::size_t most_autoregressions = 2'000;  // a cell that fails tells more
 
 std::string case_words(const std::string& label, const std::string& axis) {
   return "the case \"" + label + "\" of \"" + axis + "\"";
@@ -56,7 +56,7 @@ AxisPoint autoregression_of(const std::string& axis, const AxisPoint& point) {
   return out;
 }
 
-/// The ends of a distribution; a normal one has none and stands at its mean.
+/// The ends of a distribution; a normal one has none and counts at its mean.
 GridAxis ends_of(const Drawn& drawn) {
   GridAxis axis{drawn.name, {}};
   const auto add = [&](double value) {
@@ -186,7 +186,7 @@ void SweepAxes::read_axis(Axis& axis) {
   }
 }
 
-/// What the `set` of a case can set: beside its own lists those of all cases of other axes.
+/// What the `set` of a case can set: its own lists and those of all cases of other axes.
 SweepKeys SweepAxes::keys_of_case(const Axis& axis, const AxisPoint& point) const {
   virtual_lathe::Scenario scenario = sweep_.base;
   point.lists.put_into(scenario);

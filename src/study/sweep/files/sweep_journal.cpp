@@ -117,7 +117,7 @@ struct SweepJournal::Impl {
                      "folder with -o");
   }
 
-  /// Reads what is whole; what is behind it was torn and is taken off.
+  /// Reads what is whole; what follows it was torn and is removed.
   void read(const Sweep& sweep) {
     const std::string head = head_of(sweep), bytes = read_file(path);
     const std::string_view all = bytes;

@@ -33,7 +33,7 @@ class SweepJournal {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A result as bytes (CBOR), and back. @throws InputError for bytes that are none.
+/// A result as bytes (CBOR), and back. @throws InputError for bytes that are not a journal.
 std::string encode(const study::BlockResult& result);
 study::BlockResult decode(std::string_view bytes);
 

@@ -80,7 +80,7 @@ std::string read_base(TomlDocument& document, TomlTable root, study::Sweep& swee
   return good ? content : std::string();
 }
 
-/// The table of every repeat is that of its own fit, and the cut lies beside the surface probed.
+/// The table of every repeat is that of its own fit, and the cut lies next to the surface probed.
 void check_cut(TomlDocument& document, const std::string& path, const Sweep& sweep) {
   const virtual_lathe::CutProgram& cut = *sweep.base.cut;
   const auto complain = [&](const char* what) { document.add({path, 0, 0, what}); };

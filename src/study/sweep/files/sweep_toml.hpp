@@ -14,7 +14,7 @@ namespace trueaxis {
 /// The numbers of a `set` table as the scenario knows them, set before those of the axes.
 using ReadSet = std::function<std::vector<study::Setting>(const TomlTable&)>;
 
-/// A table of the file that a study beside the library reads once the sweep itself is whole.
+/// A table of the file that a study outside the library reads once the sweep itself is whole.
 struct SweepExtension {
   std::string key;  ///< of the table, at the top level
   std::function<void(TomlTable, const study::Sweep&, const ReadSet&)> read;
