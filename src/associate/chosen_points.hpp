@@ -18,7 +18,7 @@ struct Furthest {
 };
 Furthest furthest(const Placed& placed, const PointCloud& cloud, const Sides& sides);
 
-/// Some points of a cloud, with where they stand in it, in that order: all, where they are few.
+/// Some points of a cloud, with their places in it, in that order; all if they are few.
 class ChosenPoints {
  public:
   explicit ChosenPoints(const PointCloud& cloud);

@@ -10,13 +10,13 @@
 namespace trueaxis {
 
 /// Distances of a block of points and their derivatives by the motions of the shape, of one
-/// component: columns of the Jacobian, then the distance. Behind the last point all is 0.
+/// component: columns of the Jacobian, then the distance. After the last point all is 0.
 struct DistanceBlock {
   alignas(64) double column[most_parameters + 1][block_size];
 };
 
 /// The distance of up to block_size points (Eq. 242) and its Jacobian at the place itself (Eq.
-/// 243). Of a line or circle in space that from the nearest point of it, never negative.
+/// 243). For a line or circle in space that from its nearest point, never negative.
 void evaluate_distances(const Placed& placed, std::span<const Point3> points, DistanceBlock& block);
 
 /// The same by components, whose squares add up to that of the distance: two for a line or circle

@@ -7,8 +7,8 @@
 
 namespace trueaxis {
 
-/// The element of a criterion of extremes over all points; `best.contacts` name them as they stand
-/// in the cloud. `why` is not empty where there is none.
+/// The element of a criterion of extremes over all points; `best.contacts` name them by their
+/// places in the cloud. `why` is not empty where there is none.
 struct ExtremeElement {
   Minimax best;
   std::string why;
@@ -16,9 +16,9 @@ struct ExtremeElement {
   bool global = false;
 };
 
-/// From the Gaussian element and, where the criterion is not convex, from places about it. Of many
-/// points those that may matter are solved for, all are looked at, and those beyond are added until
-/// there is none (Eq. 251).
+/// From the Gaussian element and, where the criterion is not convex, from places about it. If there
+/// are many points, those that may matter are solved for; all are compared, and those beyond are
+/// added until there is none (Eq. 251).
 ExtremeElement extreme_element(const Placed& gaussian, const PointCloud& cloud, Criterion criterion,
                                int max_iterations);
 

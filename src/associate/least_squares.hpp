@@ -22,8 +22,8 @@ struct LeastSquares {
   bool converged = false;
 };
 
-/// Levenberg-Marquardt from `start` in the frame of the element, which goes along with it: every
-/// step is taken where its own derivatives are exact and short (Eq. 246).
+/// Levenberg-Marquardt from `start` in the frame of the element, which moves with it: every step is
+/// made where its own derivatives are exact and short (Eq. 246).
 LeastSquares least_squares(const Placed& start, const PointCloud& cloud, int max_iterations);
 
 /// What turns a step of each motion into mm at the far end of the points: 1 of a shift or size, the

@@ -133,7 +133,7 @@ class Search {
   }
   int sign_of(std::size_t row) const { return row < cloud_.points.size() && sides_.outer ? 1 : -1; }
 
-  /// Σ λ s ∇²d by differences: nine digits do, as Newton's step is taken again where it ends.
+  /// Σ λ s ∇²d by differences: nine digits do, as Newton's step is repeated where it ends.
   Eigen::MatrixXd curvature(const Placed& at, const ChebyshevSolution& linear) const {
     const std::vector<Point3> points = points_of(linear);
     const auto value = [&](const Eigen::VectorXd& step) {

@@ -15,8 +15,8 @@ struct NearestSurface {
 NearestSurface nearest_surface(const AssociatedFeature& associated, const Point3& point);
 
 /// The balance of a certificate: sums of λ s n, of λ s (arm × n), of what a larger size does. All
-/// are 0 at the optimum of the motions that the element has (Eq. 253); of a constrained element
-/// with d / n of every point beside (Eq. 254).
+/// are 0 at the optimum of the motions that the element has (Eq. 253); for a constrained element
+/// together with d / n of every point (Eq. 254).
 struct Balance {
   Point3 force{}, moment_mm{};
   double size = 0.0;         ///< Σ λ s of a size that is free

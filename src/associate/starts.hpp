@@ -8,9 +8,9 @@
 
 namespace trueaxis {
 
-/// Where to begin, the most promising first: by principal axes where they are the answer, by the
-/// algebraic equation of the element, which is linear once the direction of its axis is given, over
-/// directions spread evenly (Eq. 247).
+/// Where to begin, the most promising first. It uses principal axes if they are the answer.
+/// Otherwise it uses the algebraic equation of the element, which is linear once the direction of
+/// its axis is given, over directions spread evenly (Eq. 247).
 std::vector<Placed> starts_of(Shape shape, const PointCloud& cloud, std::size_t most);
 
 /// `count` directions of a half sphere, spread evenly (Fibonacci).

@@ -16,9 +16,9 @@ namespace trueaxis {
 /// Reads the number at `p`, in any locale; returns where it ends, or `p` where none starts. The
 /// value is the double nearest to the text. `error` is result_out_of_range as in std::from_chars.
 ///
-/// Plain decimals of at most 18 digits whose digits stay below 2^53, with at most 22 of them behind
-/// the point, are the quotient of two exact doubles, so one rounding (Clinger 1990). All else goes
-/// to std::from_chars, from the start.
+/// Plain decimals of at most 18 digits whose digits stay below 2^53, with at most 22 of them after
+/// the point, are the quotient of two exact doubles. There is therefore one rounding (Clinger
+/// 1990). All else goes to std::from_chars, from the start.
 inline const char* read_number(const char* p, const char* end, double& value, std::errc& error) {
   static constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
                                              1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
@@ -54,8 +54,8 @@ inline const char* read_number(const char* p, const char* end, double& value, st
   return stop == start ? p : stop;
 }
 
-/// The number at the front of `text`, which is taken off; nothing where none starts there, or it is
-/// beyond `Number`. Of whole numbers a plus is no part.
+/// The number at the front of `text`, removed from it; nothing if none starts there, or it is
+/// beyond `Number`. A plus does not belong to a whole number.
 template <class Number>
 std::optional<Number> take_number(std::string_view& text) {
   Number value{};
@@ -99,7 +99,7 @@ inline bool starts_number(std::string_view text) {
   return !text.empty() && text.front() >= '0' && text.front() <= '9';
 }
 
-/// The whole number that is all of `text`; nothing where it is none, or beyond `Whole`.
+/// The whole number that is all of `text`; nothing if it is not a number, or beyond `Whole`.
 template <class Whole>
 std::optional<Whole> whole_number(std::string_view text) {
   const auto value = take_number<Whole>(text);

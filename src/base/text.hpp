@@ -17,7 +17,7 @@ inline std::string_view trimmed(std::string_view text, std::string_view blanks =
   return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
 
-/// Takes `word` off the front, where it stands there.
+/// Removes `word` from the front, if it is there.
 inline bool take_word(std::string_view& text, std::string_view word) {
   if (!text.starts_with(word)) return false;
   text.remove_prefix(word.size());
@@ -30,7 +30,7 @@ inline void add_to_list(std::string& list, std::string_view word, std::string_vi
   list += word;
 }
 
-/// "a, b": of each of `all` what `word_of` says, its text or the name of a member.
+/// "a, b": what `word_of` says of each of `all`, its text or the name of a member.
 template <class All, class Word = std::identity>
 std::string word_list(const All& all, std::string_view between = ", ", Word word_of = {}) {
   std::string list;

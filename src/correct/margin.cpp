@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int angles = 180;  // of a revolution: a peak of order 1 to 3 is missed by 1e-3 at most
 constexpr int places = 9;    // along the cut; peaks are at its ends unless an axis crosses
 constexpr int phases = 96;   // between two rows or set-points
-// Images either side. Rows: what is left out is 2.5 % of the error of a table that runs
+// Images either side. Rows: the neglected part is 2.5 % of the error of a table that runs
 // so slowly that the actuator filters nothing. Set-points: the actuator has long filtered the
 // fourth.
 constexpr int row_images = 24;
@@ -27,7 +27,7 @@ constexpr double counted_mm = 1e-5;  // a harmonic that the bandwidth must pass
 struct Chain {
   Motion motion;
   std::vector<HarmonicPath> paths;
-  /// What a harmonic of amplitude 1 becomes beside itself, by order and phase x:
+  /// What a harmonic of amplitude 1 becomes in addition to itself, by order and phase x:
   /// linear interpolation between M rows, sinc²(n/M) Σ_{k≠0} (n/(n+kM))² H((n+kM)ω) e^{ikx},
   std::vector<std::vector<Complex>> between_rows;
   /// and the hold between set-points at ω_s, Σ_{m≠0} H(nω + mω_s) e^{imx}.
@@ -115,7 +115,7 @@ struct Demand {
   double slew_mm_per_s = 0.0, following_mm = 0.0, following_once_mm = 0.0;
 };
 
-/// What turns once a revolution with the part, Eq. 116a: the first harmonic's own error, and the
+/// What turns once per revolution with the part, Eq. 116a: the first harmonic's own error, and the
 /// images n + kM = ±1 of others (those of the set-points are locked to the revolution nowhere).
 double once_a_revolution(const Chain& chain, const std::vector<Complex>& following,
                          const std::vector<Complex>& command, const Actuator& actuator) {
@@ -145,7 +145,7 @@ Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted,
     const HarmonicPath& path = chain.paths[k];
     const double rate_mm_per_s = chain.motion.position_mm_per_s;
     const Complex i(0.0, 1.0);
-    // ä is left out: it is of second order in the feed per revolution over the length of the cut.
+    // ä is neglected: it is of second order in the feed per revolution over the length of the cut.
     const Complex gain = precompensated ? 1.0 / path.response : Complex(1.0);
     const Complex command_rate = gain * wanted[k].slope * rate_mm_per_s;
     command[k] = precompensated ? commanded(path, wanted[k], rate_mm_per_s) : wanted[k].value;

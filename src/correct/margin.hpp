@@ -14,7 +14,7 @@ namespace trueaxis {
 ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
                          double speed_rpm);
 
-/// The same of a run that differs from the profile's in its rows a revolution too.
+/// The same for a run that differs from the profile's in its rows per revolution too.
 ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const Actuator& actuator);
 
 /// Whether precompensation is asked for and set-points come often enough for all orders that
@@ -32,9 +32,9 @@ double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Act
 /// @param at what margin_at() found at `speed_rpm`
 double trusted_speed_rpm(const ActuatorMargin& at, double speed_rpm);
 
-/// What would make a profile that breaks a limit follow: more rows a revolution where it is the
-/// interpolation between them, faster set-points where it is the sampling, else the speed. Each was
-/// tried, alone.
+/// What would make a profile that breaks a limit follow: more rows per revolution if the
+/// interpolation between them breaks it, faster set-points if the sampling does, else the speed.
+/// Each was tried, alone.
 Reason remedy(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
               double max_speed_rpm);
 

@@ -196,7 +196,7 @@ double motion_mm(const RepeatingMotion& motion, double c_rad, double z_mm, doubl
 }
 
 int side_of_tool(double angle_from_probe_rad) {
-  constexpr double aligned = 1.0 - 1e-6;  // 0.08°: what it leaves is 1e-6 of the motion
+  constexpr double aligned = 1.0 - 1e-6;  // 0.08°: the residual is 1e-6 of the motion
   const double cosine = std::cos(angle_from_probe_rad);
   return cosine > aligned ? 1 : cosine < -aligned ? -1 : 0;
 }

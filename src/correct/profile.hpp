@@ -6,10 +6,10 @@
 
 namespace trueaxis {
 
-/// The wanted correction as a function of the spindle angle and the machine position: where the
-/// centre of the tool's nose must be for the target surface about the target axis, minus where it
-/// would be for the same surface about the spindle axis, and with the motions of the machine that
-/// are to be followed. Exact at the tool's height, mm.
+/// The wanted correction as a function of the spindle angle and the machine position. It is where
+/// the centre of the tool's nose must be for the target surface about the target axis, minus that
+/// for the same surface about the spindle axis. The motions of the machine that are to be followed
+/// are added. Exact at the tool's height, mm.
 class Profile {
  public:
   /// @throws ContractViolation naming the quantity of the target or tool that cannot be.
@@ -34,12 +34,12 @@ class Profile {
   double feed_mm_per_rev() const { return feed_mm_per_rev_; }
   /// Revolutions until the feed reaches the end.
   double turns() const { return turns_; }
-  /// Of the table: whole ones, the last of them at the end.
+  /// The turns of the table: whole ones, the last of them at the end.
   std::size_t revolutions() const { return revolutions_; }
   std::size_t rows() const {
     return revolutions_ * static_cast<std::size_t>(tool_.rows_per_revolution);
   }
-  /// Where the feed is after so many revolutions: at the end it stands.
+  /// Where the feed is after so many revolutions: at the end it stops.
   double position_after_mm(double turns) const;
   /// Running spindle angle then, in the sense of rotation when cutting.
   double c_after_rad(double turns) const;

@@ -43,7 +43,7 @@ Shares shares_of(std::span<const Reference> references, double length_mm, bool n
   const bool any_plane = std::any_of(references.begin(), references.end(), is_plane);
   for (const Reference& reference : references) {
     const bool plane = is_plane(reference);
-    // Without planes L cancels: its limit L → 0 is then as good as any length.
+    // Without planes L cancels: its limit L → 0 then serves like any length.
     const double arm = plane ? reference.face_radius_mm * reference.face_radius_mm
                              : (any_plane ? length_mm * length_mm / 12.0 : 1.0);
     shares.position.push_back(plane ? 0.0 : reference.weight);

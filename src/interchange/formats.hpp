@@ -10,11 +10,11 @@ namespace trueaxis {
 inline constexpr std::size_t most_numbers = std::size_t{1} << 28U;
 inline constexpr std::size_t most_bytes = 8 * most_numbers;
 
-/// What is left of `most_numbers` for the arrays of one file.
+/// The rest of `most_numbers` for the arrays of one file.
 class NumberBudget {
  public:
   explicit NumberBudget(const std::string& path) : path_(path) {}
-  /// rows x columns, taken from what is left. @throws InputError if it is more
+  /// rows x columns, subtracted from the rest. @throws InputError if it is more
   std::size_t take(const std::string& name, std::size_t rows, std::size_t columns);
 
  private:

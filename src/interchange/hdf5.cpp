@@ -54,7 +54,7 @@ std::string text_attribute(hid_t object, const char* name) {
   return text;
 }
 
-/// Why the numbers do not stand in this file, or "".
+/// Why the numbers are not in this file, or "".
 std::string elsewhere(hid_t set) {
   const Handle made(H5Dget_create_plist(set), &H5Pclose);
   if (H5Pget_external_count(made) > 0) return "stored in another file";
@@ -65,7 +65,7 @@ class Hdf5 {
  public:
   explicit Hdf5(const std::string& path) : path_(path), budget_(path) {
     file_.kind = "an HDF5 file";
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what is wrong is said by this project
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // this project reports what is wrong
   }
 
   NumberFile read(const std::string& bytes) {
@@ -73,7 +73,7 @@ class Hdf5 {
     H5Pset_fapl_core(access, std::size_t{1} << 16U, false);
     // The library takes a copy and does not write to what it is given.
     H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size());
-    // An image in memory must have the name of no file: nothing stands below one.
+    // An image in memory must not have the name of a file: nothing is below one.
     const std::string nowhere = path_ + "/in memory";
     const Handle file(H5Fopen(nowhere.c_str(), H5F_ACC_RDONLY, access), &H5Fclose);
     if (!file.good()) throw InputError(path_, "is not a complete HDF5 file: copy it again");

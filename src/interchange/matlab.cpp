@@ -109,7 +109,7 @@ NumberFile read_matlab_hdf5(const std::string& path, const std::string& bytes) {
 NumberFile read_matlab(const std::string& path, const std::string& bytes) {
   if (bytes.compare(0, 10, "MATLAB 7.3") == 0) return read_matlab_hdf5(path, bytes);
   if (bytes.compare(0, 10, "MATLAB 5.0") == 0) expect_whole(path, bytes);
-  Mat_LogInitFunc("", [](int, char*) {});  // what is wrong is said by this project
+  Mat_LogInitFunc("", [](int, char*) {});  // this project reports what is wrong
   const MemoryFile copy(bytes);
   const std::unique_ptr<mat_t, int (*)(mat_t*)> file(Mat_Open(copy.path().c_str(), MAT_ACC_RDONLY),
                                                      &Mat_Close);

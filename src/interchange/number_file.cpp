@@ -23,7 +23,7 @@ Kind kind_of(std::string_view bytes) {
   if (bytes.starts_with(matlab_magic) && bytes.substr(0, 128).find("MAT-file") != bytes.npos)
     return Kind::matlab;
   if (!bytes.starts_with(packed)) return Kind::none;
-  // The directory of an archive stands at its end, where a broken one has none: the first member.
+  // The directory of an archive is at its end, where a broken one has none: the first member.
   const std::string_view head = bytes.substr(0, 200);
   const auto names_first = [&](std::string_view name) { return head.find(name) != head.npos; };
   try {

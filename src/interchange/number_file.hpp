@@ -16,8 +16,8 @@ struct NumberArray {
   std::size_t rows = 0, columns = 1;
   std::vector<double> values{};        ///< row by row, rows x columns
   std::vector<std::string> names{};    ///< of the columns, where the file has them
-  std::vector<std::size_t> numbers{};  ///< of the rows in the file, from 1, where some are left out
-  std::string unusable{};              ///< why it is no table of real numbers, else empty
+  std::vector<std::size_t> numbers{};  ///< of the rows in the file, from 1, if some are excluded
+  std::string unusable{};              ///< why it is not a table of real numbers, else empty
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
 };
 

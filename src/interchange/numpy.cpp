@@ -20,7 +20,7 @@ struct Field {
   bool swapped = false;
 };
 
-/// "<f8": kind, size and order; nothing for what is no real number.
+/// "<f8": kind, size and order; nothing for what is not a real number.
 std::optional<Field> field_of(std::string_view type) {
   Field field;
   if (type.size() < 3) return {};
@@ -36,7 +36,7 @@ std::optional<Field> field_of(std::string_view type) {
   return field;
 }
 
-/// The text between the quotes that begin at `at`, which is moved behind them.
+/// The text between the quotes that begin at `at`, which is moved after them.
 std::string_view quoted(std::string_view text, std::size_t& at) {
   const std::size_t open = text.find_first_of("'\"", at);
   if (open == std::string_view::npos) return {};
@@ -46,7 +46,7 @@ std::string_view quoted(std::string_view text, std::size_t& at) {
   return text.substr(open + 1, close - open - 1);
 }
 
-/// What stands behind 'key': in the dictionary.
+/// The value of 'key': in the dictionary.
 std::string_view value_of(std::string_view header, std::string_view key) {
   const std::size_t at = header.find(key);
   if (at == std::string_view::npos) return {};

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Measured features and characteristics as a QIF 3.0 results document (ANSI/DMSC QIF, ISO 23952):
-/// form.md says what stands where. Lengths in mm, angles in degrees, as the file says them.
+/// form.md says what is where. Lengths in mm, angles in degrees, as the file says them.
 namespace trueaxis {
 
 /// A number with its standard uncertainty (`combinedUncertainty`) and mean error (`meanError`),
@@ -24,7 +24,7 @@ struct QifValue {
 struct QifVector {
   std::array<double, 3> value{};
   std::array<double, 3> u{QifValue{}.u, QifValue{}.u, QifValue{}.u};
-  bool has_z = true;  ///< false: the third coordinate is none, QIF's MOOT
+  bool has_z = true;  ///< false: the third coordinate does not count, QIF's MOOT
 };
 
 enum class QifFeatureKind { line, circle, plane, sphere, cylinder, cone, torus };

@@ -7,7 +7,7 @@
 namespace trueaxis {
 namespace {
 
-/// What QIF calls the point and the direction of a feature; both stand in an Axis, or do not.
+/// What QIF calls the point and the direction of a feature; both are in an Axis, or not.
 struct FeatureNames {
   const char *kind, *point, *direction;
   bool axis = false;
@@ -34,7 +34,7 @@ void add_vector(pugi::xml_node parent, const char* name, const QifVector& vector
   }
 }
 
-/// In words where it is none of QIF's own names, which are of capitals.
+/// In words if it is not one of QIF's own names, which are of capitals.
 void add_algorithm(pugi::xml_node node, const std::string& algorithm) {
   if (algorithm.empty()) return;
   const bool named = algorithm.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == algorithm.npos;

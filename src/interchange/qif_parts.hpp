@@ -21,8 +21,9 @@ class QifIds {
   unsigned last_ = 0;
 };
 
-/// xs:decimal, which has no exponent: the fewest digits that are read as the same number, but not
-/// more than the 18 that every XML Schema processor must take (a length in mm then to 1e-18 mm).
+/// xs:decimal, which has no exponent: the fewest digits that are read as the same number. They are
+/// not more than the 18 that every XML Schema processor must take (a length in mm then to 1e-18
+/// mm).
 std::string qif_decimal(double value);
 
 pugi::xml_node qif_child(pugi::xml_node parent, const std::string& name, const std::string& text);

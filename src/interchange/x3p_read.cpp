@@ -146,7 +146,7 @@ class X3p {
     count_ = budget.take("points", of_layer.take("points", size_[0], size_[1]), 3 * size_[2]) / 3;
   }
 
-  /// One point of the numbers that stand in the file.
+  /// One point of the numbers in the file.
   void add(std::size_t index, const std::array<double, 3>& stored, NumberArray& points) {
     if (std::ranges::any_of(stored, [](double value) { return std::isnan(value); })) {
       ++invalid_;

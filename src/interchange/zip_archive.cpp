@@ -57,8 +57,8 @@ std::string ZipArchive::member(const std::string& name) {
            " MiB, more than TrueAxis reads from one file (2 GiB)");
   if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && stat.encryption_method != ZIP_EM_NONE)
     refuse("is encrypted");
-  // Deflate packs to a thousandth and a little at best: what says more is no archive that a
-  // program wrote.
+  // Deflate packs to a thousandth and a little at best: if the header states more, no program wrote
+  // the archive.
   if ((stat.valid & ZIP_STAT_COMP_SIZE) != 0 && stat.size > 1100 * stat.comp_size + 1024)
     refuse("says that it unpacks to " + std::to_string(stat.size) + " bytes from " +
            std::to_string(stat.comp_size) + ", which deflate cannot");
@@ -66,7 +66,7 @@ std::string ZipArchive::member(const std::string& name) {
   if (file == nullptr) refuse(std::string("is broken (") + zip_strerror(archive_) + ")");
   std::string bytes(stat.size, '\0');
   const zip_int64_t got = zip_fread(file, bytes.data(), bytes.size());
-  char more = 0;  // the sum of the whole is looked at behind its last byte
+  char more = 0;  // the sum of the whole is checked after its last byte
   const bool whole =
       got == static_cast<zip_int64_t>(bytes.size()) && zip_fread(file, &more, 1) == 0;
   const std::string why = zip_file_strerror(file);
@@ -91,7 +91,7 @@ std::string zip_of(const std::vector<std::pair<std::string, std::string>>& membe
     good = good && at >= 0;
     if (!good) break;
     const auto index = static_cast<zip_uint64_t>(at);
-    // The first says what the archive is: it stands at its beginning as it is.
+    // The first says what the archive is: it is at its beginning without compression.
     good = zip_file_set_dostime(archive, index, 0, no_date, 0) == 0 &&
            (index > 0 || zip_set_file_compression(archive, index, ZIP_CM_STORE, 0) == 0);
   }

@@ -14,7 +14,7 @@ namespace trueaxis {
 /// A zip archive in memory; members are unpacked when they are asked for, up to a limit.
 class ZipArchive {
  public:
-  /// @throws InputError where the bytes are no whole archive
+  /// @throws InputError if the bytes are not a whole archive
   ZipArchive(std::string path, std::string_view bytes);
   ~ZipArchive();
   ZipArchive(const ZipArchive&) = delete;

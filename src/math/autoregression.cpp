@@ -20,9 +20,9 @@ constexpr double five_percent = 3.84;
 // likelihood that could not be worked out was one of white noise.
 constexpr double rounding = 1e-12;
 
-/// The columns that are independent beside those before them, by a Cholesky decomposition of the
-/// Gram matrix without pivoting that leaves out where its pivot vanishes: a singular normal matrix
-/// has no likelihood.
+/// The columns that are independent of those before them, by a Cholesky decomposition of the Gram
+/// matrix without pivoting. It skips a column if its pivot vanishes: a singular normal matrix has
+/// no likelihood.
 std::vector<Eigen::Index> independent(const Matrix& gram) {
   std::vector<Eigen::Index> kept;
   Matrix left = gram;
@@ -35,7 +35,7 @@ std::vector<Eigen::Index> independent(const Matrix& gram) {
   return kept;
 }
 
-/// The likelihoods of autoregressions beside the columns of a Gram matrix that are independent.
+/// The likelihoods of autoregressions after the independent columns of a Gram matrix.
 class Likelihood {
  public:
   explicit Likelihood(const LaggedGram& gram)
@@ -54,7 +54,7 @@ class Likelihood {
            2.0 * second_rows_ * std::log(start.second);
   }
 
-  /// The noise with what it leaves.
+  /// The noise and its residual.
   Autoregression with_remainder(std::vector<double> phi) {
     const auto r = regression(phi.empty() ? 0.0 : phi[0], phi.size() < 2 ? 0.0 : phi[1]);
     if (!r) return {std::move(phi)};

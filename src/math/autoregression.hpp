@@ -17,7 +17,7 @@ namespace trueaxis {
 /// φ of ε_i = Σ φ_j ε_{i−j} + e_i; empty: white.
 struct Autoregression {
   std::vector<double> phi;
-  double rss = 0.0;      ///< of what is left, whitened; 0: there were too few readings to tell
+  double rss = 0.0;      ///< of the residuals, whitened; 0: there were too few readings to tell
   double freedom = 0.0;  ///< of it: readings beyond the columns
 };
 
@@ -46,7 +46,7 @@ struct LaggedRows {
 };
 
 /// Products of columns with those one and two readings earlier, all over the same readings. The
-/// first column is what shows the noise, the others are those of the model beside it.
+/// first column shows the noise, the others are those of the model.
 class LaggedGram {
  public:
   explicit LaggedGram(Eigen::Index columns);
@@ -57,7 +57,7 @@ class LaggedGram {
   void add(const LaggedRows& rows);
   /// Adds the products of more readings.
   void add(const LaggedGram& other);
-  /// The same readings with room for more columns behind.
+  /// The same readings with room for more columns at the end.
   LaggedGram widened(Eigen::Index columns) const;
   /// Adds the products of columns that are last with each other and with those before them, of
   /// readings whose products those before have already.
@@ -104,10 +104,9 @@ class WhitenedGram {
   LowerTriangle whitened_;
 };
 
-/// Autoregression of the first column beside the others by restricted maximum likelihood (Patterson
-/// and Thompson 1971): order 0, 1 or 2, each one only where the likelihood ratio passes 5 %, the
-/// second only where it is noise and `is_form(φ₁, φ₂)` does not take it for something else (Eqs.
-/// 64, 65).
+/// Autoregression of the first column after the others by restricted maximum likelihood (Patterson
+/// and Thompson 1971). It has order 0, 1 or 2, each one only if the likelihood ratio passes 5 %.
+/// The second needs to be noise: `is_form(φ₁, φ₂)` must be false (Eqs. 64, 65).
 Autoregression find_autoregression(const LaggedGram& gram,
                                    const std::function<bool(double, double)>& is_form);
 
@@ -116,7 +115,7 @@ Autoregression find_autoregression(const LaggedGram& gram,
 bool rings_with_spindle(double phi1, double phi2, std::span<const double> c_rad);
 
 /// How the first readings of a run are whitened, so that a run is as likely as all of its readings
-/// are: e₀ = g₀ ε₀, e₁ = g₁ (ε₁ − a ε₀), of the same variance as every innovation behind them.
+/// are: e₀ = g₀ ε₀, e₁ = g₁ (ε₁ − a ε₀), of the same variance as every innovation after them.
 /// Without them what differs from run to run, such as the sides of a delay, would be free (Prais
 /// and Winsten 1954, Eq. 66b).
 struct RunStart {

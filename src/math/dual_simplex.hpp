@@ -18,9 +18,9 @@ struct Vertex {
 };
 
 /// The x of least objective·x with column(j)·x ≥ cost(j) for every j, by the simplex method on the
-/// dual, which has as many rows as there are unknowns whatever the number of constraints (Stiefel
-/// 1959). The basis, one constraint an unknown, must be feasible (multipliers ≥ 0) and is left as
-/// it ended, so that a problem alike starts from it.
+/// dual (Stiefel 1959). The dual has as many rows as there are unknowns whatever the number of
+/// constraints. The basis, one constraint an unknown, must be feasible (multipliers ≥ 0) and is
+/// left as it ended, so that a problem alike starts from it.
 ///
 /// `Constraints` has column(j), cost(j) and entering(x, exchange): a constraint that x breaks, or
 /// none for the optimum.
@@ -57,7 +57,7 @@ Vertex dual_simplex(const Eigen::VectorXd& objective, std::vector<Basis>& basis,
       const double b = std::max(0.0, at.multipliers[leaves]) * pivot[j];
       if (a < b || (a == b && pivot[j] > pivot[leaves])) leaves = j;
     }
-    if (leaves < 0) break;  // nothing can go: what is left is rounding
+    if (leaves < 0) break;  // nothing can go: the rest is rounding
     basis[static_cast<std::size_t>(leaves)] = *incoming;
   }
   return at;

@@ -16,7 +16,7 @@ namespace trueaxis {
 /// Smallest even number 2^a 3^b 5^c that is at least `least`.
 std::size_t smooth_even_size(std::size_t least);
 
-/// X_k = Σ_j x_j exp(−2πi jk/n) of one length n = 2^a 3^b 5^c, done as a matrix of n1 × n2 in
+/// X_k = Σ_j x_j exp(−2πi jk/n) of one length n = 2^a 3^b 5^c. It is done as a matrix of n1 × n2 in
 /// four steps (Bailey 1990), some columns or rows at a time in the second cache.
 class FastFourier {
  public:

@@ -124,7 +124,7 @@ struct FourierSums::Spreading {
   std::size_t orders;
   FastFourier transform;
   std::vector<Places> kept;                  ///< part by part, of few readings
-  std::vector<std::complex<double>> factor;  ///< of order k: of the middle of t, of the kernel
+  std::vector<std::complex<double>> factor;  ///< of order k: for the middle of t, for the kernel
 };
 
 FourierSums::Spreading::Spreading(ColumnSource t, std::size_t size_of_t, double middle_of_t,

@@ -8,8 +8,8 @@
 
 namespace trueaxis {
 
-/// The lower triangle of a symmetric matrix, column by column in aligned memory. What stands above
-/// the diagonal is finite and of no meaning.
+/// The lower triangle of a symmetric matrix, column by column in aligned memory. What is above the
+/// diagonal is finite and of no meaning.
 class LowerTriangle {
  public:
   /// All 0.
@@ -30,10 +30,9 @@ class LowerTriangle {
   };
   void become_sum(std::span<const Part> parts);
 
-  /// Takes the first `count` columns out of all others: what is left of these is the Schur
-  /// complement, and of the first ones the Cholesky factor, whose rows below are R⁻ᵀ times the
-  /// products of the others with them.
-  /// @returns false where the first columns are not positive definite
+  /// Takes the first `count` columns out of all others, of which the Schur complement remains. The
+  /// first ones become the Cholesky factor, whose rows below are R⁻ᵀ times the products of the
+  /// others with them. @returns false where the first columns are not positive definite
   bool eliminate(std::size_t count);
 
  private:

@@ -15,7 +15,7 @@ constexpr double ends_at = 6.0;  // sd t: e^{−18} is nothing
 constexpr double steps = 16.0;
 constexpr double exact = 1e-3;
 
-/// Of the sum less its mean, at t.
+/// The characteristic function of the sum less its mean, at t.
 double characteristic(double t, double sd, std::span<const NormalMixture> summands, double mean) {
   std::complex<double> product = std::exp(-0.5 * sd * sd * t * t) * std::polar(1.0, -mean * t);
   for (const NormalMixture& mixture : summands) {

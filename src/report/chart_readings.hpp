@@ -119,7 +119,7 @@ struct ChartReadings {
 ChartReadings chart_readings(const ProbeStream& stream, const FitResult& fit,
                              const CoaxialNominal& nominal);
 
-/// Bins of the unrolled surface: of C, and of Z with no more rows than turns (rows between two
+/// Bins of the unrolled surface over C, and over Z with no more rows than turns (rows between two
 /// turns of a helix would stay blank).
 inline constexpr Bins map_columns{0.0, 360.0, 120};
 Bins map_rows(const ChartReadings& all);

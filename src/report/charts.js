@@ -74,7 +74,7 @@ function axis(name, more = {}) {
   };
 }
 
-/** Upright axis: its name stands level above it, which needs no width. */
+/** Upright axis: its name is level above it, which needs no width. */
 const uprightAxis = (name, more = {}) =>
   axis(name, {nameLocation: 'end', nameGap: 12, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -24]}, ...more});
 

@@ -68,7 +68,7 @@ function harmonicsTable(correction) {
       fixed(h.actuator_gain, 5), deg(h.actuator_lag.value)]));
 }
 
-/** A profile number, which the machine runs as it stands: 1 nm steps. */
+/** A profile number, which the machine runs as it is: 1 nm steps. */
 const um = (mm) => isNumber(mm) ? `${fixed(mm * 1000, 3)}${nbsp}µm` : 'not determined';
 
 const marginLines = (m) => [

@@ -77,7 +77,7 @@ function shareWords({effect, instead_of: instead, probability, axis_shift: shift
   return `${what} (probability ${significant(probability, 2)}) would move it by ${estimated(shift, k)}`;
 }
 
-/** Of a face the named model stands; what the others would make of its tilt is in its U. */
+/** For a face the named model stays; what the others would make of its tilt is in its U. */
 function faceAxisBlock({shares, options: {coverage_factor: k}}) {
   const telling = shares.filter((s) => isNumber(s.axis_shift.value) && s.axis_shift.value > 0 && s.probability >= 0.01).slice(0, 5);
   if (!telling.length) return null;
@@ -85,7 +85,7 @@ function faceAxisBlock({shares, options: {coverage_factor: k}}) {
     element('ul', {}, telling.map((s) => element('li', {}, shareWords(s, k)))));
 }
 
-/** The axis that is stated, beside those of the named model and of the ideal fit, and what moved it. */
+/** The final axis, with those of the named model and of the ideal fit, and what moved it. */
 function axesBlock({verdict, axes, shares, axis_of_cut: cut, options: {coverage_factor: k}}, face) {
   if (face) return faceAxisBlock({shares, options: {coverage_factor: k}});
   if (!axes.stated.length) return null;
@@ -194,7 +194,7 @@ function nextBlock({next_measurement: next, plans}) {
     impossible.length ? paragraph(`Not possible here: ${impossible.map((plan) => `${plan.what || data.words.measurements[plan.plan]} (${plan.why_not})`).join('; ')}.`, 'quiet') : null);
 }
 
-/** What was seen, each with its causes, their chances and what follows: the page's short form of the findings. */
+/** What was seen, each with its causes, their probabilities and what follows: the page's short form of the diagnosis. */
 function seenList({findings, unexplained, consequences = {}, options: {coverage_factor: k}}, face) {
   const most = 3;
   const cause = ({effect, probability}, alone) => element('li', {}, joined(`${worded(effect)}${alone ? '' : ` (${chance(probability)})`}`), consequences[effect] ? `: ${consequences[effect]}` : '');

@@ -58,7 +58,7 @@ const sectionDifferences = (readings, extended) => sectionChart(readings, [['bef
   ...(extended ? [['after_um', 'measured − after', colours.model]] : [])],
 'Measured minus simulated over the spindle angle.');
 
-/** Orders that have a name: of harmonics found, and of unexplained patterns. */
+/** Orders that have a name, for harmonics found and unexplained patterns. */
 const foundLines = ({findings, unexplained}) => [
   ...findings.map((f) => ({order: f.parameters.order?.value, name: f.name})).filter(({order}) => isNumber(order)),
   ...unexplained.map((u) => ({order: Math.abs(u.term.pattern.order ?? 0), name: 'unexplained'})).filter(({order}) => order > 0)];
@@ -75,7 +75,7 @@ function spectrumChart(diagnosis, extended) {
     marks.set(i, [...(marks.get(i) ?? []), `${line.name} (${tick(Number(line.order.toPrecision(4)))})`]);
   });
   const end = tidy(Math.ceil(largest(order)));
-  // Above the mark where there is room on either side, else beside it.
+  // Above the mark if there is room on either side, else next to it.
   const beside = (width, i, names) => {
     const half = 3.3 * Math.max(...names.map((name) => name.length)), place = (width - 56) * order[i] / end;
     return place + half > width - 40 ? 'left' : place < half - 30 ? 'right' : 'top';
@@ -103,7 +103,7 @@ function spectrumChart(diagnosis, extended) {
 /** Plans that can be carried out and whose gain is known. */
 const feasible = (plans) => plans.filter((plan) => !plan.why_not && isNumber(plan.power_before) && isNumber(plan.power));
 
-/** What every plan would do to the chance of the right name. */
+/** What every plan would do to the probability of the right name. */
 function plansChart(plans) {
   const shown = feasible(plans);
   if (!shown.length) return null;

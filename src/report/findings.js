@@ -4,10 +4,10 @@
 const chance = (p) => !isNumber(p) ? '–' : p < 0.001 ? '< 0.1 %' : `${significant(100 * p, 2)}${nbsp}%`;
 const falseAlarm = ({p_value: p}) => ['False-alarm probability (all hypotheses counted)', !isNumber(p) ? '–' : p < 0.001 ? '< 0.001' : significant(p, 2)];
 
-/** A cause by its title, its id beside it. */
+/** A cause by its title, its id next to it. */
 const titled = (titles, id, ...notes) => element('span', {}, titles[id] ?? id, ...notes, element('small', {}, id));
 
-/** The named cause, and all that explain the readings as well. */
+/** The named cause, and all that fit the readings equally well. */
 const membersOf = ({effect, probability, rivals}) => [{effect, probability}, ...rivals];
 
 function classTable(finding, titles) {

@@ -26,7 +26,7 @@ function centredPolar({measured, found, words, description, asLine = false, size
   return figure({caption: `${words} ${tick(step)} µm a ring.`, description: `${description} Up to ${micrometres(most / 1000)} from the circle.`, size, renderer: 'svg', build});
 }
 
-/** What is left at each section of a surface. */
+/** The residual at each section of a surface. */
 function residualPolars(readings) {
   const parts = readings.sections.filter((part) => part.residual?.um.length);
   const place = (part) => `${readings.face ? 'X' : 'Z'} = ${millimetres(part.position_mm, 2)}`;

@@ -49,7 +49,7 @@ function locationTable({extended, baseline}) {
 /** What might be taken for certain and is not, and checks of the data that found something. */
 const mindedOf = ({remarks = [], checks = []}) => [...remarks, ...checks.filter((check) => check.found).map((check) => check.text)];
 
-/** What was found, in a line each, with what explains it as well. */
+/** What was found, in a line each, with what fits the readings equally well. */
 function findingsSection({diagnosis}) {
   const {verdict, findings, unexplained, consequences} = diagnosis;
   const items = findings.map((f) => {

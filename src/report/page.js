@@ -18,7 +18,7 @@ function section(id, title, ...children) {
   return element('section', {id}, element('h2', {}, title), ...children);
 }
 
-/** A section whose title stands alone until it is opened. */
+/** A section that shows its title alone until it is opened. */
 function fold(id, title, ...children) {
   return element('details', {id, class: 'fold'}, element('summary', {}, element('h2', {}, title)), ...children);
 }

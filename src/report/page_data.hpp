@@ -26,7 +26,7 @@ Json part_form_data(const PartForm& form);
 Json simulation_data(const ProbeStream& stream, const Diagnosis& diagnosis,
                      const Resimulation* again);
 
-/// What went in: streams with hash, options of fit, tool and actuator, as label and text.
+/// The inputs: streams with hash, options of fit, tool and actuator, as label and text.
 Json inputs_data(const JobResult& result);
 
 /// Coaxiality of each reference before and after, the axes over the length to be cut.

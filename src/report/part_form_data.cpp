@@ -25,10 +25,10 @@ const FormValue* of(const SectionForm& section, const char* name, const char* re
   return nullptr;
 }
 
-/// Of a cone these hold its taper, and conicity stands for them.
+/// For a cone these hold its taper, and conicity replaces them.
 bool of_cylinder(std::string_view name) { return name == "CYLt" || name == "runout_total"; }
 
-/// A cone's circumscribed and inscribed cylinders are of no use: nothing is said of them.
+/// A cone's circumscribed and inscribed cylinders are of no use: the page does not have them.
 bool of_cylinders(const std::string& note) {
   return note.find("minimum_circumscribed") != std::string::npos ||
          note.find("maximum_inscribed") != std::string::npos;

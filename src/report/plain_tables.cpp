@@ -13,10 +13,10 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t most_numbers = 16;   // of a column that is a list and no chart
-constexpr std::size_t most_open = 12'000;  // characters of a part that stands open
+constexpr std::size_t most_open = 12'000;  // characters of a part that is open
 constexpr std::size_t most_columns = 12;   // of a table with a row an element
 
-/// A member's name as words; of an axis, x0 and U stay as they are.
+/// A member's name as words; x0 and U of an axis stay as they are.
 std::string words(std::string key) {
   std::ranges::replace(key, '_', ' ');
   return escape_html(key);
@@ -44,7 +44,7 @@ std::string scalar_text(const Json& json) {
   return json.dump();
 }
 
-/// "0.0802 mm (u 0.0003 mm)", and what else stands beside the value.
+/// "0.0802 mm (u 0.0003 mm)", and what else is next to the value.
 std::string quantity_text(const Json& json) {
   const Json& value = json.at("value");
   const double u = json.contains("u") && json["u"].is_number() ? json["u"].get<double>() : 0.0;

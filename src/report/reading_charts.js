@@ -3,7 +3,7 @@
 
 const pairs = (x, y, keep) => keep.map((i) => [x[i], y[i]]);
 
-/** Indices of kept and of rejected readings. */
+/** Indices of kept and of excluded readings. */
 function split(points) {
   const rejected = new Set(points.rejected);
   const all = points.c_deg.map((_, i) => i);

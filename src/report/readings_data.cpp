@@ -110,8 +110,8 @@ Json sections_data(const ChartReadings& all, const CoaxialNominal& nominal,
   return sections;
 }
 
-/// What the extended model adds to the ideal surface at each reading, µm; empty where nothing was
-/// found or it is not known of every reading.
+/// What the causes add to the ideal fit at each reading, µm; empty if nothing was found or it is
+/// not known for every reading.
 std::vector<double> found_um(const Diagnosis* diagnosis, const ChartReadings& all) {
   if (diagnosis == nullptr || (diagnosis->findings.empty() && diagnosis->unexplained.empty()))
     return {};

@@ -82,7 +82,7 @@ Json titles_of(const Diagnosis& diagnosis) {
   return titles;
 }
 
-/// What was seen, finding by finding.
+/// What was seen, cause by cause.
 void add_words(Json& data, const Diagnosis& diagnosis) {
   const double k = diagnosis.baseline.coverage_factor;
   const auto seen = [k](const auto& one) { return seen_text(one, k); };

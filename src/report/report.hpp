@@ -13,7 +13,7 @@
 
 namespace trueaxis {
 
-/// The report of a job, which stands in `file`: one HTML page that opens offline (Apache ECharts
+/// The report of a job, which is in `file`: one HTML page that opens offline (Apache ECharts
 /// embedded).
 std::string render_report(const JobResult& result, const std::string& file = "");
 

@@ -3,7 +3,7 @@
 
 const data = JSON.parse(document.getElementById('data').textContent);
 worded = (text) => text.replace(/\b[a-z]+\.[a-z_]+/g, (id) => data.words.effects[id] ?? id);
-// What was seen stands beside the findings, which are as in their file.
+// What was seen is next to the diagnosis, which is as in its file.
 for (const {diagnosis} of data.references) {
   diagnosis?.findings.forEach((f, i) => { f.seen = diagnosis.seen.findings[i]; });
   diagnosis?.unexplained.forEach((u, i) => { u.seen = diagnosis.seen.unexplained[i]; });

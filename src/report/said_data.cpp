@@ -56,8 +56,8 @@ void add_reference(Warnings& warnings, const JobResult& result, std::size_t i) {
       warnings.add(check.text, name);
 }
 
-/// What the diagnosis asks to be measured next, and what it would tell. With what probability the
-/// right cause is known now stands at each finding, of its own.
+/// What the diagnosis asks to be measured next, and what it would tell. The probability with which
+/// the right cause is known now is at each cause.
 std::string measurement_text(const NextMeasurement& next) {
   return fmt::format(
       "To tell the causes apart: {} (about {:.0f} min). The right cause is then named with a "

@@ -9,7 +9,7 @@
 namespace trueaxis {
 namespace {
 
-/// The lengths probed: Z of a lateral surface; of a face X, at the mean of its readings.
+/// The lengths probed: Z of a lateral surface, X of a face at the mean of its readings.
 Json seat_data(const JobResult& result, std::size_t i) {
   const FitResult& fit = result.fits[i];
   const ProbeStream& stream = result.streams[i];

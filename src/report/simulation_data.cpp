@@ -14,7 +14,7 @@ bool complete(const Diagnosis& d, std::size_t count) {
   return count > 0 && d.residual_before_mm.size() == count && d.residual_after_mm.size() == count;
 }
 
-/// Readings that the diagnosis left out, or where the model was not evaluated.
+/// Readings that the diagnosis excluded, or where the model was not evaluated.
 std::vector<bool> masked_readings(const Diagnosis& d) {
   std::vector<bool> masked = marked(d.noise.masked, d.residual_before_mm.size());
   for (std::size_t i = 0; i < masked.size(); ++i) {
@@ -101,7 +101,7 @@ Json simulation_data(const ProbeStream& stream, const Diagnosis& d, const Resimu
   const bool by_lathe = again != nullptr && again->why_not.empty();
   const Resimulation shown = by_lathe ? *again : by_model(stream, d, masked);
   ChartReadings all = chart_readings(stream, d.baseline, CoaxialNominal(stream, d.baseline));
-  // What the ideal surface's robust loss rejected may be what was found: it counts.
+  // What the robust loss of the ideal fit excluded may be what was found: it counts.
   for (std::size_t i = 0; i < masked.size(); ++i) all.kept[i] = !masked[i];
   const Comparison& c = shown.comparison;
   return {{"by_lathe", by_lathe},

@@ -40,7 +40,7 @@ function panelsOf(curves) {
   });
 }
 
-/** The grid as the charts see it: the longest axis lies across, what is left makes curves. */
+/** The grid as the charts see it: the longest axis lies across, the others make curves. */
 function gridView(sweep) {
   const longest = sweep.axes.reduce((most, a, i) => a.labels.length > (sweep.axes[most]?.labels.length ?? 1) ? i : most, -1);
   const across = sweep.axes[longest] ?? {name: '', labels: [''], values: [null]};
@@ -63,7 +63,7 @@ function gridView(sweep) {
   return view;
 }
 
-/** What stands behind a caption to say which panel it is of. */
+/** The end of a caption that says which panel it is of. */
 const panelWords = (view) => view.title ? ` ${view.title[0].toUpperCase()}${view.title.slice(1)}.` : '';
 
 /** The axis across, labelled at the points of the grid. */

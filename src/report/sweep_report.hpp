@@ -10,7 +10,7 @@
 
 namespace trueaxis {
 
-/// What a study beside the library adds to the page: data, and a script that puts an object with
+/// What a study outside the library adds to the page: data, and a script that puts an object with
 /// `sections(sweep)`, `errorSeries` and `spreadSeries(sweep, view, quantity)` into `studies`.
 struct SweepReportAddition {
   std::string key;  ///< of the data on the page

@@ -89,7 +89,7 @@ function axesSection(all) {
     insets.length ? element('div', {class: 'pair insets'}, insets) : null, axesTable(target, references, k));
 }
 
-/** What is left at each reference, the axes along Z, and of diagnosed ones the axis as stated, named and ideal. */
+/** The residual at each reference, the axes along Z, and for diagnosed ones the final, named and ideal axis. */
 function axesFold(all) {
   const {target, references, verdict: {k}} = all, lines = axisLines(target, references);
   const parts = [];

@@ -79,7 +79,7 @@ Json remainder_data(const Remainder& left) {
           {"u_coaxiality_mm", left.u_coaxiality_mm}, {"at_most_mm", left.limit_mm}};
 }
 
-/// Of the datum, were the part cut about the spindle axis.
+/// The residual of the datum if the part were cut about the spindle axis.
 Json before_datum(const JobResult& result, const std::pair<double, double>& length) {
   const Reference datum = judged(result, references_of(result)).front();
   return before(datum.axis, datum.face_radius_mm, length);

@@ -27,7 +27,7 @@ double secant(const Axis& axis) {
   return std::sqrt(1.0 + axis.slope_x * axis.slope_x + axis.slope_y * axis.slope_y);
 }
 
-/// The part as it stands in a set-up. The lathe's frame moves along Z with the part: the axis is
+/// The part as it is in a set-up. The lathe's frame moves along Z with the part: the axis is
 /// asked for where it pierces z = z_shift.
 Chucking chucking_of(const ProbeStream& stream, const SetUp& set_up, const Axis& axis) {
   Chucking out;
@@ -44,7 +44,7 @@ Chucking chucking_of(const ProbeStream& stream, const SetUp& set_up, const Axis&
   return out;
 }
 
-/// A face whose axis stands where the spindle's pierces it, in every set-up at the height found
+/// A face whose axis is where the spindle's pierces it, in every set-up at the height found
 /// there: its frame's origin is so far below it as in the first.
 void place_face(const FitResult& fit, Scenario& scenario) {
   virtual_lathe::Part& part = scenario.part;
@@ -62,7 +62,7 @@ void place_face(const FitResult& fit, Scenario& scenario) {
   }
 }
 
-/// Part and set-ups of a fit, its radius about the axis as it stands in the last set-up.
+/// Part and set-ups of a fit, its radius about the axis as it is in the last set-up.
 void place_part(const FitResult& fit, const ProbeStream& stream, Scenario& scenario) {
   if (fit.status != FitStatus::converged)
     throw InputError("diagnosis", std::string("its fit is not converged (") +

@@ -33,7 +33,7 @@ std::string catalogue_name(const Effect& effect, std::string_view lathe_name) {
 
 /// The catalogue's parameters of a term, inside units, and what the frame gives.
 Parameters values_in(const TermValue& term, const LatheFrame& frame) {
-  // A bent axis about its nearest line (Eq. 40); the part as it stands after a step (Eq. 46).
+  // A bent axis about its nearest line (Eq. 40); the part as it is after a step (Eq. 46).
   const double end_mm = std::abs(frame.z_mid_mm) + frame.z_half_mm;
   const double squares = frame.z_mid_mm * frame.z_mid_mm + frame.z_half_mm * frame.z_half_mm / 3.0;
   Parameters values{{"length", 2.0 * frame.z_half_mm},
@@ -67,7 +67,7 @@ LatheEffects growing(const Effect& entry, const Parameters& values) {
   return {constant, by_name(entry, growth)};
 }
 
-/// In the lathe a tilt is about a bearing; the motion beside it is another effect.
+/// In the lathe a tilt is about a bearing; the motion with it is another effect.
 LatheEffects tilt(const Effect& entry, const Parameters& values) {
   const std::string motion(linear_parameters(entry.term, {}).at(2).size_name());
   return {by_name(entry, values),

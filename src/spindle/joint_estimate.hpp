@@ -16,10 +16,10 @@
 namespace trueaxis {
 
 /// All runs of one kind, from readings to the solutions of every order: what repeats in each run,
-/// chips left out, the separation, and both again less what the linear equation leaves out.
+/// without chips, the separation, and both again less what the linear equation neglects.
 class JointEstimate {
  public:
-  /// @throws InputError for a layout without a solution, or too few readings a turn.
+  /// @throws InputError for a layout without a solution, or too few readings per revolution.
   JointEstimate(std::vector<RunReadings> runs, const SpindleOptions& options);
 
   const std::vector<RunReadings>& runs() const { return runs_; }

@@ -117,7 +117,7 @@ PolarCurves polar_of(const JointEstimate& all, const UncertainSeries& motion,
   return out;
 }
 
-/// Once per turn, and the whole orders above it.
+/// Once per revolution, and the whole orders above it.
 void split_axial(const UncertainSeries& series, ErrorMotion& motion) {
   const double u_mm = std::hypot(series.u_mm[1], series.moved_mm.row(1).norm());
   motion.fundamental = {2.0 * std::abs(series.harmonics[1]), 2.0 * u_mm, "mm", ""};

@@ -16,7 +16,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr int grid = 3600;  // angles are whole tenths of a degree
-constexpr int coarse = 10;  // first searched in whole degrees
+constexpr int coarse = 10;  // first searched in steps of 1°
 constexpr int most_rounds = 50;
 
 /// κ² of an order from the 3 × 3 matrix AᴴA, its eigenvalues in closed form.

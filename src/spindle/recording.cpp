@@ -90,7 +90,7 @@ class StreamChecks {
       add(stream, name + " is probed from the rear: a face does not have a rear side");
   }
 
-  /// Of readings of positions their sign tells on which side of the axis the sensor stands.
+  /// If readings are positions, their sign tells the sensor's side of the axis.
   void one_side(const ProbeStream& stream, const SetUp& set_up, const RunReadings& run) {
     if (run.axial || stream.indication == Indication::relative) return;
     const std::string name = "set-up " + std::to_string(set_up.number);

@@ -29,8 +29,8 @@ struct RunReadings {
 /// The runs of the streams. @throws InputError with all that does not go together in one estimate.
 std::vector<RunReadings> take_runs(std::span<const ProbeStream> streams);
 
-/// Where the motion is felt: as wanted, else X, or the line of the sensors where they stand on one.
-/// @throws InputError where they stand on another line than that wanted.
+/// Where the motion is felt: as wanted, else X, or the line of the sensors if they are on one.
+/// @throws InputError if they are on another line than that wanted.
 double sensitive_direction(std::span<const RunReadings> runs, std::optional<double> wanted_rad);
 
 /// The channels of the runs. @throws InputError where there are fewer than unknowns.

@@ -93,8 +93,8 @@ class OrderSolver {
     const Index rank = directions(1.0 / singular), kept = directions(limit);
     const MatrixXcd unseen = svd_.matrixV().rightCols(p - kept);
     const MatrixXcd whitener = read.covariance.llt().matrixL().solve(MatrixXcd::Identity(m, m));
-    // All directions that the readings hold are solved, whatever their condition: one that is left
-    // out would bias the others.
+    // All directions that the readings hold are solved, whatever their condition: dropping one
+    // would bias the others.
     const MatrixXcd basis = svd_.matrixV().leftCols(rank);
     const Eigen::HouseholderQR<MatrixXcd> qr(whitener * matrix_ * basis);
     const MatrixXcd thin = qr.householderQ() * MatrixXcd::Identity(m, rank);

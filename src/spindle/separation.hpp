@@ -11,7 +11,7 @@
 
 namespace trueaxis {
 
-/// An angle that is known with u: of a sensor, or of a re-indexing.
+/// An angle of a sensor or of a re-indexing that is known with u.
 struct AngleInfluence {
   double u_rad = 0.0;
   std::vector<std::size_t> channels;  ///< that it turns

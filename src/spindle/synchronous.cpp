@@ -35,13 +35,13 @@ std::vector<std::vector<double>> drift_columns(std::size_t readings, std::size_t
   return columns;
 }
 
-/// A line of the spectrum beside an order, `away` in lines.
+/// A line of the spectrum next to an order, `away` in lines.
 struct NearLine {
   Eigen::VectorXcd at;
   double away;
 };
 
-/// Mean of the lines. One that stands far out of the others is a motion of its own, which reaches
+/// Mean of the lines. One that is far above the others is a motion of its own, which reaches
 /// the order by its leakage only: |sin(πj)/(πj)|², ½/(πj)² in the mean over where it really lies.
 Eigen::MatrixXcd covariance_of(const std::vector<NearLine>& near) {
   std::vector<double> powers;
@@ -187,7 +187,7 @@ void SynchronousFit::add_covariance(SynchronousPart& part) const {
       for (Index s = 0; s < sensors; ++s) at[s] = scale * sums[static_cast<std::size_t>(s)][line];
       near.push_back({std::move(at), static_cast<double>(away)});
     };
-    // The nearest lines on both sides that are no order; below half an order is the drift.
+    // The nearest lines on both sides that are not an order; below half an order is the drift.
     for (std::size_t j = 1; near.size() < lines_wanted && j <= reach; ++j) {
       if (j % L == 0) continue;
       if (n * L > j + L / 2) take(n * L - j, j);

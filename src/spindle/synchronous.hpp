@@ -16,7 +16,7 @@ namespace trueaxis {
 struct SynchronousPart {
   /// z_n of order n = 0 … for every sensor (rows): the reading holds Re(z_n exp(inC)).
   Eigen::MatrixXcd harmonics;
-  /// E[z zᴴ] of order n, sensors by sensors (Eq. 143): from the lines beside it.
+  /// E[z zᴴ] of order n, sensors by sensors (Eq. 143): from the lines next to it.
   std::vector<Eigen::MatrixXcd> covariance;
   double freedom = 0.0;             ///< complex lines that a covariance is the mean of
   Eigen::MatrixXd asynchronous_mm;  ///< readings by sensors: less what repeats and the drift

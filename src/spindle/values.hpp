@@ -30,8 +30,8 @@ struct AsynchronousMotion {
 Estimate range_estimate(const UncertainSeries& series);
 
 /// The widest band at one angle over all turns, and largest − smallest of what repeats and what
-/// does not together. u is how much they differ between recordings as long, from series of the same
-/// spectrum with phases drawn anew (Theiler et al. 1992).
+/// does not together. Their u is how much they differ between recordings as long, from series of
+/// the same spectrum with phases drawn anew (Theiler et al. 1992).
 std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& series,
                                                      std::span<const AsynchronousMotion> runs,
                                                      double per_turn);

@@ -42,7 +42,7 @@ class Cylinder final : public RevolvedSurface {
   }
 };
 
-/// One section without Z: a circle off-centre, exact (its second harmonic e²/4R is no ovality).
+/// One section without Z: a circle off-centre, exact (its second harmonic e²/4R is not an ovality).
 class Section final : public RevolvedSurface {
  public:
   explicit Section(const SurfaceFrame& frame) : RevolvedSurface(frame, false, false) {}

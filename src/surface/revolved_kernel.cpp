@@ -35,12 +35,11 @@ HWY_INLINE V inverse(D tag, V x) {
   return hn::MulAdd(y, e, y);
 }
 
-// With e = (cos C, sin C, 0), q = (X cos C − x, X sin C − y, ζ), ζ = Z − z_ref, d the unit axis,
-// g = e·d, s = s0 + g X, r = r_ref + t s, K = 1 + t²:   A X² + 2 B X + F = 0,
-// A = 1 − K g²,  B = e·q0 − g (K s0 + t r_ref),  F = |q0|² − s0² − (r_ref + t s0)²,
-// √disc = √(B² − A F) = e·G.
-// Three stages over the block, as one chain of dependent steps is too long for a processor to
-// overlap with enough of its neighbours.
+// Let e = (cos C, sin C, 0), q = (X cos C − x, X sin C − y, ζ) and ζ = Z − z_ref. With d the unit
+// axis, g = e·d, s = s0 + g X, r = r_ref + t s, K = 1 + t²: A X² + 2 B X + F = 0, A = 1 − K g², B =
+// e·q0 − g (K s0 + t r_ref), F = |q0|² − s0² − (r_ref + t s0)², √disc = √(B² − A F) = e·G. Three
+// stages over the block, as one chain of dependent steps is too long for a processor to overlap
+// with enough of its neighbours.
 struct Constants {
   double x, y, dx, dy, dz, z_ref, s_origin, offset2, k, t, r_ref;
 };

@@ -35,7 +35,7 @@ std::vector<double> RevolvedSurface::working_scale_mm(std::span<const double> wo
   return scale;
 }
 
-/// Of a relative gauge: the radius that the ball's centre runs on, see expand().
+/// For a relative gauge: the radius that the ball's centre runs on, see expand().
 double RevolvedSurface::nominal_path_radius(double tan_half_angle) const {
   return frame_.nominal_radius_mm +
          frame_.ball_mm * std::sqrt(1.0 + tan_half_angle * tan_half_angle);
@@ -49,8 +49,8 @@ double RevolvedSurface::gauge_shift(const ReadingBlock& readings, std::size_t co
   return mean - (frame_.root == Root::front ? 1.0 : -1.0) * nominal_path_radius(0.0);
 }
 
-// The quadric |q|² = K s² + 2 t r s + r², s = ζ + bx (x − x0) + by (y − y0), sorted by x, y and ζ
-// with the axis' cosine taken as 1 and x² bx² dropped; β = bx x0 + by y0:
+// The quadric |q|² = K s² + 2 t r s + r² with s = ζ + bx (x − x0) + by (y − y0), sorted by x, y and
+// ζ. The axis' cosine is 1 here and x² bx² dropped. With β = bx x0 + by y0:
 //   x² + y² = 2 (x0 + bx (t r − K β)) x + 2 (y0 + by (t r − K β)) y + 2 K bx xζ + 2 K by yζ
 //             + r² − x0² − y0² − 2 t r β + K β² + 2 (t r − K β) ζ + t² ζ².
 std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::size_t count) const {

@@ -36,8 +36,8 @@ class RevolvedSurface : public Surface {
 
  protected:
   /// All six working parameters of any scalar type, those the surface lacks at their fixed value,
-  /// and the ball taken off the radius: the contact's offset along the normal is r_b / cos(half
-  /// angle).
+  /// and the ball subtracted from the radius: the contact's offset along the normal is r_b /
+  /// cos(half angle).
   template <typename T>
   struct Full {
     T x, y, slope_x, slope_y, radius, tan;

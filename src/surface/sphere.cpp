@@ -10,10 +10,10 @@
 namespace trueaxis {
 namespace {
 
-/// A ball with its centre at (x, y, z): a master ball on the spindle, the end of a ball-bar. With e
-/// the probe line's direction in the part, a = e·(x, y), b = (−e_y, e_x)·(x, y), h = Z − z and
-/// D² = R² − h² − b² the line meets it at X = a ± D, + in front (Eq. 301). R is that of the ball's
-/// centre of the probe, from which its radius is taken off.
+/// A ball with its centre at (x, y, z): a master ball on the spindle, the end of a ball-bar. Let e
+/// be the probe line's direction in the part, a = e·(x, y), b = (−e_y, e_x)·(x, y), h = Z − z and
+/// D² = R² − h² − b². The line meets it at X = a ± D, + in front (Eq. 301). R is that of the ball's
+/// centre of the probe, from which its radius is subtracted.
 class Sphere final : public Surface {
  public:
   explicit Sphere(const SurfaceFrame& frame)

@@ -36,12 +36,12 @@ struct PredictionBlock {
 
 /// What a fit knows of the data before it starts; it makes the working parameters well-conditioned.
 struct SurfaceFrame {
-  double position_ref_mm = 0.0;  ///< middle of the probed length: where working offsets are taken
+  double position_ref_mm = 0.0;  ///< middle of the probed length: where working offsets are defined
   double half_length_mm = 0.0;
   Root root = Root::front;
   Indication indication = Indication::absolute;
   double nominal_radius_mm = 0.0;  ///< a relative gauge only
-  double ball_mm = 0.0;            ///< ball radius, negative in a bore: taken off along the normal
+  double ball_mm = 0.0;            ///< ball radius, negative in a bore: subtracted along the normal
 };
 
 /// A line of the catalogue.
@@ -94,7 +94,7 @@ class Surface {
   /// The axis (of a plane: its normal) and its Jacobian, 4 × parameter_count(), row-major.
   virtual Axis axis(std::span<const double> working) const = 0;
   virtual std::vector<double> axis_jacobian(std::span<const double> working) const = 0;
-  /// The part's surface, the ball taken off; a plane returns, with radius 0, the axis that is
+  /// The part's surface, the ball subtracted; a plane returns, with radius 0, the axis that is
   /// perpendicular to it where the spindle's pierces it, there as probed.
   virtual Revolved shape(std::span<const double> working) const = 0;
   /// Derivatives of the prediction with respect to influence quantities, at one reading.

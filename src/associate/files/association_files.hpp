@@ -8,25 +8,24 @@
 
 namespace trueaxis {
 
-/// Points with the line of the file that each stands in.
+/// Points with the line of the file for each.
 struct PointText {
   std::string source, hash;
   std::vector<Point3> points_mm;
   std::vector<std::size_t> lines;    ///< of a binary file its rows
-  std::vector<std::string> notes{};  ///< what was left out, in sentences
+  std::vector<std::string> notes{};  ///< what was excluded, in sentences
   std::vector<double> metres{};      ///< x, y, z in turn as they were read, where that is in metres
 };
 
 /// A coordinate beyond it is a wrong unit or a damaged file, and its square could overflow.
 inline constexpr double largest_coordinate_mm = 1e12;
 
-/// A point a line: x y z between blanks, tabs or commas, comments behind '#'. A first line may name
-/// the columns, `x y z` or `x[um],y[um],z[um]`; `unit` ("mm", "um", "m", "in"; empty: not said)
-/// must then be the same. Without either it is mm.
-/// X3P (metres), HDF5, MATLAB and NumPy files are known by their first bytes: of them `array` names
-/// the points, "P" of three columns or "a,b,c", where it is not clear; a unit must be said by the
-/// file (an attribute `units` of HDF5) or by `unit`.
-/// @throws InputError with every line that is no point, with its column.
+/// One point per line: x y z between blanks, tabs or commas, comments after '#'. A first line may
+/// name the columns, `x y z` or `x[um],y[um],z[um]`; `unit` ("mm", "um", "m", "in"; empty: not
+/// said) must then be the same. Without either it is mm. X3P (metres), HDF5, MATLAB and NumPy files
+/// are known by their first bytes. If it is not clear, `array` names their points: "P" of three
+/// columns or "a,b,c". The file (an attribute `units` of HDF5) or `unit` must give the unit.
+/// @throws InputError with every line that is not a point, with its column.
 PointText read_points(const std::string& path, const std::string& unit,
                       const std::string& array = "");
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_places = 20;
 
-/// "x[um]": the unit of the column, "" where it has none; nothing where the text is no such column.
+/// "x[um]": the unit of the column, "" if it has none; nothing if the text is not such a column.
 std::optional<std::string_view> unit_of_column(std::string_view text, char name) {
   const auto [written, unit] = name_with_unit(text);
   if (written.size() != 1 || lower_case(written[0]) != name) return {};
@@ -31,7 +31,7 @@ class Reader {
   void line(std::string_view text, std::size_t number, PointText& out) {
     text = csv_without_comment(text);
     if (trimmed(text).empty()) return;
-    // Blanks, or commas with blanks beside them.
+    // Blanks, or commas with blanks around them.
     csv_split(text, text.find(',') != std::string_view::npos ? ',' : ' ', fields_);
     if (first_ && !starts_number(fields_.front()) && header(text, number)) return;
     first_ = false;
@@ -70,7 +70,7 @@ class Reader {
     return false;
   }
 
-  /// The names of the columns with their unit. @returns false where it is no such line at all
+  /// The names of the columns with their unit. @returns false if it is not such a line at all
   bool header(std::string_view line, std::size_t number) {
     first_ = false;
     if (fields_.size() != 3) return false;

@@ -12,7 +12,7 @@ namespace trueaxis {
 
 namespace {
 
-/// Whether the points stand on the side of the tube that faces the axis.
+/// Whether the points are on the side of the tube that faces the axis.
 bool towards_the_axis(const Feature& torus, const StreamPoints& points) {
   const Eigen::Vector3d middle(torus.point_mm.data()), along(torus.direction.data());
   double sum = 0.0;

@@ -7,8 +7,8 @@
 
 namespace trueaxis {
 
-// Each reads the text of a file as its control does and compares what it makes of it with the
-// wanted correction, at the nodes of the file and between them.
+// Each reads the text of a file as its control does and compares the result with the wanted
+// correction, at the nodes of the file and between them.
 
 Deviation grid_as_read(const Correction& correction, std::string_view text);
 Deviation sinumerik_as_read(const Correction& correction, std::string_view text);

@@ -13,7 +13,7 @@
 namespace trueaxis {
 namespace {
 
-/// `value` in whole `unit`s, and the node set to what they say.
+/// `value` as a number of `unit`s, and the node set to it.
 long long rounded_to(double& value_mm, double unit_mm) {
   const long long units = std::llround(value_mm / unit_mm);
   value_mm = static_cast<double>(units) * unit_mm;

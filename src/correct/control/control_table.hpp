@@ -22,7 +22,7 @@ void put(std::string& text, fmt::format_string<T...> form, T&&... values) {
 /// `C[deg]\Z[mm]` and a column for every position, then a row for every angle, µm.
 MadeControlTable grid_csv(const Correction& correction, const ControlTable& table);
 /// LinuxCNC halstreamer(1): blank-separated columns X_command in µm and C in degrees (cfg=ff), a
-/// line a sample; lines with '#' are skipped. The last line stands twice, as halstreamer may hold
+/// line a sample; lines with '#' are skipped. The last line is there twice, as halstreamer may hold
 /// back the last of a multiple of its depth.
 MadeControlTable halstreamer_text(const Correction& correction);
 /// Blocks `C X Z`, C running, six decimals, one point a block under G93.

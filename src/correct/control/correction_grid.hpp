@@ -25,7 +25,7 @@ struct CorrectionGrid {
   double between(double c_rad, double at_position_mm) const;
 };
 
-/// How many nodes a grid has: of a turn, and of the length with this step.
+/// How many nodes a grid has: over a turn, and over the length with this step.
 std::size_t nodes_of_turn(double c_step_rad);
 std::size_t nodes_of_length(double length_mm, double step_mm);
 

@@ -16,7 +16,7 @@ Json comparison_object(const Comparison& comparison);
 std::string comparison_json(const Comparison& comparison, const std::string& diagnosis,
                             const ProbeStream& stream);
 
-/// In a line: what is left of the discrepancy, or why it was not simulated again.
+/// In a line: the rest of the discrepancy, or why it was not simulated again.
 std::string resimulation_line(const Resimulation& again);
 
 /// The same as a table.

@@ -45,7 +45,7 @@ std::string spindle_advice_text(std::span<const double> proposed_rad,
 std::string spindle_page(const SpindleResult& result);
 
 /// Polar plots (schema trueaxis.spindle_plot/1): motion along the sensitive direction, with what
-/// does not repeat, over C; beside it the form of the part.
+/// does not repeat, over C; next to it the form of the part.
 std::string polar_svg(const SpindleResult& result);
 
 /// The same one by one, each a drawing of its own, without schema.
