@@ -44,8 +44,8 @@ double value_at(const std::vector<Sample>& samples, double time_s, std::size_t& 
   return a.value + (b.value - a.value) * (time_s - a.time_s) / (b.time_s - a.time_s);
 }
 
-/// An angle that jumps back by about a turn at the end of each is made a running one, so that what
-/// lies between two samples is on the way of the spindle.
+/// An angle that jumps back by about a turn at the end of each becomes a running one. What lies
+/// between two samples is then on the way of the spindle.
 bool unwrap_degrees(std::vector<Sample>& samples) {
   const auto [low, high] = std::ranges::minmax(samples, {}, &Sample::value);
   if (high.value - low.value > 361.0 || high.value - low.value < 180.0) return false;
@@ -104,7 +104,8 @@ bool read_camonitor(const RecordedText& text, Recording& out) {
     const bool runs_on = unwrap_degrees(of);
     refuse_long_steps(name, of, runs_on, out);
     if (runs_on)
-      out.notes.push_back(name + " jumps by a turn: taken as an angle in degrees that runs on");
+      out.notes.push_back(name +
+                          " jumps by a revolution: read as an angle in degrees that runs on");
     out.columns.push_back({name, "", name, true});
   }
   out.columns.push_back({"t", "s", "t", true});
@@ -130,8 +131,8 @@ bool read_camonitor(const RecordedText& text, Recording& out) {
                         fastest->first);
   if (outside > 0)
     out.notes.push_back(
-        fmt::format("{} samples of {} lie before the first or behind the last of another "
-                    "channel and are left out",
+        fmt::format("{} samples of {} lie before the first or after the last of another "
+                    "channel and are excluded",
                     outside, fastest->first));
   if (others > 0)
     out.notes.push_back(counted(others, "line without a number (disconnected, alarms) is",

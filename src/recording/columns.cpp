@@ -26,7 +26,7 @@ std::string language_of(const Recording& recording) {
   return "";
 }
 
-/// The unit of a column as a stream writes it; what is not clear is said.
+/// The unit of a column as a stream writes it; adds to `unclear` what is not clear.
 void take_unit(const Recording& recording, TakenColumn& taken,
                const std::optional<std::string>& said, std::vector<std::string>& unclear) {
   const std::string unit = said.value_or(recording.columns[taken.column].unit);
@@ -43,8 +43,8 @@ void take_unit(const Recording& recording, TakenColumn& taken,
     }
   } else {
     unclear.push_back(
-        fmt::format("{} has the unit {}, which is none of {}: convert the column, or say "
-                    "its true unit behind its number, as in {}={}[…]",
+        fmt::format("{} has the unit {}, which is not one of {}: convert the column, or write "
+                    "its true unit after its number, as in {}={}[…]",
                     described(recording, taken.column), csv_quoted(unit),
                     taken.role == RecordedRole::c   ? "deg, rad and rev"
                     : taken.role == RecordedRole::t ? "s and ms"
@@ -78,7 +78,7 @@ std::vector<TakenColumn> as_said(const Recording& recording, const ColumnsSaid& 
     const auto named = role_of_name(recording.columns[*column].name);
     if (*role == RecordedRole::x && named) one.diameter = named->diameter;
     if (face && *role == RecordedRole::z)
-      unclear.emplace_back("a face has Z_M, C and X, and no Z beside them");
+      unclear.emplace_back("a face has Z_M, C and X, but not Z: remove it from --columns");
     take_unit(recording, one, item.unit, unclear);
     taken.push_back(std::move(one));
   }
@@ -166,7 +166,7 @@ ColumnsSaid read_columns_said(const std::string& text) {
     if (equals == std::string_view::npos || trimmed(item.substr(equals + 1)).empty())
       throw InputError(
           "--columns",
-          csv_quoted(item) + " is no column: write it as in \"X=Diameter,C=Angle(°),Z=3[mm]\"");
+          csv_quoted(item) + " is not a column: write it as in \"X=Diameter,C=Angle(°),Z=3[mm]\"");
     ColumnsSaid::Item one;
     one.role = trimmed(item.substr(0, equals));
     std::string_view column = trimmed(item.substr(equals + 1));
@@ -221,7 +221,7 @@ std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsS
   for (const TakenColumn& column : taken)
     if (recording.of_numbers && !column.unit_said && !column.unit.empty())
       unclear.push_back(fmt::format(
-          "{} ({}) has no unit, and a binary file shows none: say it behind the number, {}={}[{}]",
+          "{} ({}) has no unit, and a binary file shows none: write it after the number, {}={}[{}]",
           described(recording, column.column), word_of(column.role), word_of(column.role),
           column.column + 1, column.unit));
   if (!has(RecordedRole::x))

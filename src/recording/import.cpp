@@ -40,7 +40,7 @@ std::vector<std::string> recording_words(const std::string& columns, std::size_t
   return words;
 }
 
-/// The columns that were said, and what is asked, as far as it is clear.
+/// The columns of `--columns`, and what the file needs, as far as it is clear.
 std::string columns_to_say(const Recording& recording, const RecordingOptions& options,
                            const Unclear& unclear) {
   std::string columns =
@@ -95,7 +95,7 @@ std::string lines_suggested(const Recording& recording, const RecordingOptions& 
   throw InputError(std::move(diagnostics));
 }
 
-/// Numbers in columns behind the last name: commas that cut numbers in two. A column in front
+/// Numbers in columns after the last name: commas that cut numbers in two. A column in front
 /// without a name, as pandas writes its index, is another matter.
 void expect_named(const Recording& recording, const std::string& path) {
   std::size_t named = recording.columns.size();
@@ -120,7 +120,7 @@ std::optional<bool> convention_in(const std::vector<std::string>& metadata) {
   return {};
 }
 
-/// How the columns were read, said.
+/// How the columns were read, in words.
 void describe(const Recording& recording, const std::vector<TakenColumn>& taken, bool diameter,
               std::vector<std::string>& notes) {
   std::string text, supposed;
@@ -134,7 +134,7 @@ void describe(const Recording& recording, const std::vector<TakenColumn>& taken,
       add_to_list(supposed, std::string(word_of(column.role)) + " in " + column.unit);
   }
   notes.insert(notes.begin(), "read as " + recording.producer + ": " + text);
-  if (!supposed.empty()) notes.push_back("no unit is said; taken: " + supposed);
+  if (!supposed.empty()) notes.push_back("the file states no unit; assumed: " + supposed);
   std::string left;
   for (std::size_t k = 0; k < recording.columns.size(); ++k) {
     if (std::ranges::find(taken, k, &TakenColumn::column) != taken.end()) continue;
@@ -163,7 +163,7 @@ std::string head_of_file(const std::string& path) {
   return head;
 }
 
-/// Whether the first line that is no comment names columns as a stream of TrueAxis does.
+/// Whether the first line that is not a comment names columns as a stream of TrueAxis does.
 bool is_own_header(const RecordedText& text) {
   for (const std::string_view line : text.lines) {
     const std::string_view content = trimmed(csv_without_comment(line));
@@ -203,8 +203,8 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
       diameter && options.read.diameter && *diameter != *options.read.diameter;
   if (contradicted)
     unclear.why.push_back(std::string("X is a ") + (*diameter ? "diameter" : "radius") +
-                          " by its name and a " + (*diameter ? "radius" : "diameter") +
-                          " for the caller: correct one");
+                          " by its name, but " + options.read.caller() + " says a " +
+                          (*diameter ? "radius" : "diameter") + ": correct one of them");
   if (!diameter) diameter = options.read.diameter;
   if (!diameter) diameter = convention_in(recording.metadata);
   if (!diameter && points) diameter = false;
@@ -216,7 +216,7 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
   unclear.decimal = recording.in_thousands;
   if (unclear.decimal)
     unclear.why.push_back(
-        fmt::format("every {} in its numbers stands before three digits and may part thousands: "
+        fmt::format("every {} in its numbers comes before three digits and may separate thousands: "
                     "say how it is meant, or save the numbers without it",
                     recording.decimal == ',' ? "comma" : "point"));
   if (!unclear.why.empty()) refuse(path, recording, options, unclear);
@@ -248,7 +248,7 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
   const auto text_of = [&](std::size_t k) { return row_text(recording, rows, k); };
   StreamReadOptions read = options.read;
   read.diameter.reset();
-  // Rows that are wrong are left out here: what is wrong between the others is said as well.
+  // Wrong rows are excluded here, so that mistakes between the others are reported too.
   std::vector<Diagnostic> wrong = thrown_by([&] { diagnostics.throw_if_any(); });
   const auto line_of = [&](std::size_t line) {
     const std::size_t row = line - head_lines;

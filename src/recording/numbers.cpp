@@ -24,7 +24,7 @@ Recording recorded_numbers(const std::string& path, const std::string& bytes) {
       add_to_list(left, fmt::format("{} ({})", array.name,
                                     array.unusable.empty() ? fmt::format("{} rows", array.rows)
                                                            : array.unusable));
-  if (!left.empty()) out.notes.push_back(fmt::format("left out of the {} rows: {}", longest, left));
+  if (!left.empty()) out.notes.push_back(fmt::format("not among the {} rows: {}", longest, left));
   std::vector<NumberColumn> columns = number_columns(file);
   std::erase_if(columns, [&](const NumberColumn& column) { return column.array->rows != longest; });
   for (const NumberColumn& column : columns) {

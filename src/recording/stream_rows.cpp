@@ -41,13 +41,13 @@ bool is_instant(const Recording& recording, const TakenColumn& column) {
   return column.role == RecordedRole::t && !recording.columns[column.column].is_number;
 }
 
-/// Why a cell is no number, and what to do.
+/// Why a cell is not a number, and what to do.
 std::string why_no_number(std::string_view cell, char decimal) {
   double value = 0.0;
   const std::size_t end = cell.find_first_not_of("+-0123456789.,eE");
   if (end == std::string_view::npos && cell.find('.') != std::string_view::npos &&
       (decimal == ',' || cell.find(',') != std::string_view::npos))
-    return " is not a number: save numbers without a mark that parts thousands";
+    return " is not a number: save numbers without a separator of thousands";
   const bool unit = end != std::string_view::npos &&
                     cell.find_first_of("0123456789", end) == std::string_view::npos;
   if (unit && recorded_number(trimmed(cell.substr(0, end)), decimal, value))
@@ -68,7 +68,7 @@ class RowMaker {
         diagnostics_(diagnostics),
         points_(find(taken, RecordedRole::y) != nullptr) {}
 
-  /// Rows of which no value stands in a cell that is needed.
+  /// Rows without a value in a cell that is needed.
   const CsvInvalidRows& invalid() const { return invalid_; }
 
   /// False where a cell is wrong; the numbers of a good row are appended.
@@ -84,8 +84,8 @@ class RowMaker {
              number(i, *find(taken_, RecordedRole::y), y) &&
              number(i, *find(taken_, RecordedRole::c), c);
       if (good && x == 0.0)
-        good = wrong(i, *find(taken_, RecordedRole::x), "X is 0 beside Y: the point has no side",
-                     "zero");
+        good = wrong(i, *find(taken_, RecordedRole::x),
+                     "X is 0 next to Y, so the point has no side: remove the row", "zero");
     }
     const std::size_t before = out.size();
     for (const TakenColumn& column : taken_) {
@@ -128,7 +128,8 @@ class RowMaker {
     if (is_instant(recording_, column)) {
       const auto at_s = instant_s(cell);
       if (!at_s)
-        return wrong(i, column, "t: " + csv_quoted(cell) + " is no time of day: write 13:55:48.325",
+        return wrong(i, column,
+                     "t: " + csv_quoted(cell) + " is not a time of day: write 13:55:48.325",
                      "instant");
       if (first_s_ != first_s_) first_s_ = *at_s;
       return parse_number(fmt::format("{:.9g}", *at_s - first_s_), value);  // as it is written

@@ -37,7 +37,7 @@ std::size_t numbers_in(const std::vector<std::string_view>& fields, char decimal
       fields, [&](std::string_view field) { return is_number(field, decimal); }));
 }
 
-/// Of lines of two numbers or more: how many fields most have, and how many of these are numbers.
+/// In lines of two numbers or more: how many fields most have, and how many of these are numbers.
 Layout tried(const RecordedText& text, std::size_t skip, Layout layout) {
   constexpr std::size_t most_lines = 4000;
   std::map<std::size_t, std::size_t> of_count;
@@ -178,8 +178,8 @@ void drop_empty_columns(Recording& out) {
   out.columns.resize(used);
 }
 
-/// Whether every decimal mark of a table may as well part thousands: behind one to three digits,
-/// the first of which is no zero, and before exactly three.
+/// Whether every decimal mark of a table may also separate thousands: after one to three digits,
+/// the first of which is not a zero, and before exactly three.
 bool may_part_thousands(const Recording& recording) {
   bool any = false;
   for (const std::string_view cell : recording.cells) {
@@ -237,7 +237,7 @@ bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> 
       continue;
     }
     if (after_gap && !out.lines.empty())
-      out.notes.push_back(fmt::format("the table goes on behind empty lines, in line {}", i + 1));
+      out.notes.push_back(fmt::format("the table goes on after empty lines, in line {}", i + 1));
     after_gap = false;
     if (std::any_of(fields.begin() + static_cast<std::ptrdiff_t>(std::min(columns, fields.size())),
                     fields.end(), [](std::string_view field) { return !field.empty(); }))

@@ -29,7 +29,7 @@ double seconds_between(std::int64_t from, std::int64_t to) {
 }
 
 /// The number in a field of a keyed row, `otherwise` where the row or the field is not there; with
-/// a decimal comma or a point, whatever the samples have. What is no number goes to `wrong`.
+/// a decimal comma or a point, whatever the samples have. `wrong` gets what is not a number.
 double keyed_number(const std::map<std::string, std::vector<std::string_view>>& keyed,
                     const std::string& key, std::size_t at, double otherwise, Recording& out) {
   const auto row = keyed.find(key);
@@ -98,7 +98,7 @@ bool read_twincat_scope(const RecordedText& text, Recording& out) {
                            ticks && separator == ','
                                ? "has more fields than there are names: where commas are both "
                                  "decimal marks and separators, export with semicolons"
-                               : "is no row of TICKS and values: remove it"});
+                               : "is not a row of TICKS and values: remove it"});
       continue;
     }
     if (out.lines.empty()) start_ticks = *ticks;

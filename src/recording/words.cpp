@@ -91,10 +91,11 @@ bool read_words(const RecordedText& text, Recording& out) {
     out.columns.push_back({name, "", name, true});
   }
   if (others > 0)
-    out.notes.push_back(fmt::format("{} passed over: {}{}",
-                                    counted(others, "line that is no words of numbers is",
-                                            "lines that are no words of numbers are"),
-                                    first_other, others > 1 ? " …" : ""));
+    out.notes.push_back(
+        fmt::format("{} passed over: {}{}",
+                    counted(others, "line without words of a letter and a number is",
+                            "lines without words of a letter and a number are"),
+                    first_other, others > 1 ? " …" : ""));
   out.producer = "words of a letter and a number, as DPRNT prints them";
   return true;
 }

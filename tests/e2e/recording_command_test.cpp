@@ -47,7 +47,7 @@ class RecordingCommand : public CommandTest {
   }
   /// Of the axis in the middle of its length.
   static double x_of(const nlohmann::json& fit) { return fit.at("axis").at("x").at("value"); }
-  /// The last line of what was said, without what stands before "trueaxis".
+  /// The last line of the output, without what comes before "trueaxis".
   static std::string command_in(const std::string& said) {
     const std::size_t at = said.rfind("trueaxis ");
     if (at == std::string::npos) return "";
@@ -115,7 +115,7 @@ TEST_F(RecordingCommand, HeadersAsPeopleWriteThem) {
 // Nothing of these is clear, so that it is asked for; no language is German alone in the first.
 TEST_F(RecordingCommand, WhatMayBeTwoThingsIsAskedFor) {
   const std::pair<const char*, const char*> asked[] = {
-      {"Radius;C [Grad];Z", "unit 'Grad', which is none of deg, rad and rev"},
+      {"Radius;C [Grad];Z", "unit 'Grad', which is not one of deg, rad and rev"},
       {"Winkel;X;Z", "X may be a radius or a diameter"},
       {"Winkel;Radius;Position", "column 3 (Position) does not say of which axis it is"},
       {"Winkel;Radius;Länge [mm]", "column 3 (Länge [mm]) does not say of which axis it is"},
@@ -180,7 +180,7 @@ TEST_F(RecordingCommand, RowsWithoutAValueAreLeftOutWhenAsked) {
     text += with_mistakes(i, row, row.substr(row.find(';'))) + "\n";
   }
   file("table.csv", text);
-  // Row i stands in line i + 3 behind a comment and the header, in line i + 2 behind the header.
+  // Row i is in line i + 3 after a comment and the header, in line i + 2 after the header.
   const std::pair<const char*, const char*> files[] = {
       {"own.csv", "6 rows are excluded (--drop-invalid), in lines 8, 20, 43-45, 303"},
       {"table.csv", "6 rows are excluded (--drop-invalid), in lines 7, 19, 42-44, 302"}};
@@ -190,7 +190,7 @@ TEST_F(RecordingCommand, RowsWithoutAValueAreLeftOutWhenAsked) {
     EXPECT_EQ(refused.exit_code, 3);
     for (const char* word : {"'NaN'", "is empty", "6 rows have no value"})
       EXPECT_TRUE(contains(refused.err, word)) << name << word << refused.err;
-    const std::string first = name;  // '#WERT!' at the beginning of a line is no comment
+    const std::string first = name;  // '#WERT!' at the beginning of a line is not a comment
     if (first == "own.csv") {
       EXPECT_TRUE(contains(refused.err, "own.csv:20:1: X_M: '#WERT!' is not a number"));
     }
@@ -256,7 +256,7 @@ TEST_F(RecordingCommand, ReadingsAtTheEndOfTheRangeAreExcludedWhenAsked) {
   EXPECT_NEAR(x_of(result("out/result.json").at("references")[0].at("fit")), x0_mm, sixfold);
 }
 
-// Half of the rows are no slip of a spreadsheet, and a decimal comma is a value.
+// Half of the rows are not a slip of a spreadsheet, and a decimal comma is a value.
 TEST_F(RecordingCommand, RowsAreNotLeftOutThatShouldNotBe) {
   shaft("half.csv", [](int i, double x, double c, double z) {
     const std::string good = plain(i, x, c, z);

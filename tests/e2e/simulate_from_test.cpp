@@ -89,14 +89,15 @@ TEST_F(SimulateFrom, TheMeasuredPartComesBackAsAStream) {
   EXPECT_NE(column(read_text(folder_ / "other.csv"), "X_M[mm]"), column(again, "X_M[mm]"));
   const json truth = result("truth.json");
   EXPECT_EQ(truth.at("effects").at(0).at("effect"), "part.roundness");
-  // Of the named model, whose effects are simulated; what is stated is an average.
+  // For the named model, whose effects are simulated; what is stated is an average.
   const json named = result("d.json").at("named").at("parameters");
   for (const char* name : {"x0", "y0", "l", "m"}) {
     EXPECT_NEAR(truth.at("parameters").at(name).at("value").get<double>(),
                 named.at(name).at("value").get<double>(), 1e-12)
         << name;
   }
-  // Diagnosed as the first was; without the effect there is nothing to find (chance 1 %, seeded).
+  // Diagnosed as the first was; without the effect there is nothing to find (false alarms 1 %,
+  // seeded).
   const auto diagnosed = [&](const std::string& stream) {
     const CommandStreams done = command("diagnose " + stream + " --surface cylinder --json -");
     EXPECT_EQ(done.exit_code, 0) << done.err;
@@ -156,7 +157,8 @@ TEST_F(SimulateFrom, RefusesWhatDoesNotBelongTogether) {
   file("empty.json", "{}");
   expect_input_error("simulate --from empty.json --compare", "trueaxis.diagnosis/2");
   ASSERT_EQ(command("fit part.csv --surface cylinder --json fit.json").exit_code, 0);
-  expect_input_error("simulate --from fit.json --compare", "is no trueaxis.diagnosis/2");
+  expect_input_error("simulate --from fit.json --compare",
+                     "its schema is not trueaxis.diagnosis/2");
   json open = result("d.json");
   open.at("named").at("status") = "rank_deficient";
   file("open.json", open.dump());

@@ -125,9 +125,9 @@ TEST_F(BadInputFile, CallerAndFileMustAgreeOnDiameter) {
   EXPECT_EQ(complaint("X_M,C,Z", false), "");
   EXPECT_EQ(complaint("X_M[mm dia],C,Z", true), "");
   EXPECT_EQ(complaint("X_M[mm dia],C,Z", false),
-            "X_M is a diameter in the file and a radius for the caller: correct one");
+            "X_M is a diameter in the file, but the option says a radius: correct one of them");
   EXPECT_EQ(complaint("# x_convention: radius\nX_M,C,Z", true),
-            "X_M is a radius in the file and a diameter for the caller: correct one");
+            "X_M is a radius in the file, but the option says a diameter: correct one of them");
 }
 
 TEST_F(BadInputFile, OtherEncodingsAndBinaryAreTold) {

@@ -48,12 +48,13 @@ using Readings = std::vector<double>;
 TEST_F(RecordingDoubts, PointsThatMayPartThousandsAreAsked) {
   const std::string text = "Winkel;Radius;Z\n0;20.100;1\n90;20.200;2\n180;20.300;3\n";
   const std::string said = refusal(text);
-  expect_said(said, "every point in its numbers stands before three digits and may part thousands");
+  expect_said(said,
+              "every point in its numbers comes before three digits and may separate thousands");
   expect_said(said, "--columns X=2,C=1,Z=3,decimal=point");
   // The command that it prints reads the file; so does the one word that was missing.
   EXPECT_EQ(read(text, "X=2,C=1,Z=3,decimal=point").reading_mm, (Readings{20.1, 20.2, 20.3}));
   EXPECT_EQ(read(text, "decimal=point").reading_mm, (Readings{20.1, 20.2, 20.3}));
-  expect_said(refusal(text, "decimal=comma"), "save numbers without a mark that parts thousands");
+  expect_said(refusal(text, "decimal=comma"), "save numbers without a separator of thousands");
   expect_said(refusal(text, "decimal=komma"), "it is decimal=point or decimal=comma");
 }
 
@@ -108,13 +109,13 @@ TEST_F(RecordingDoubts, WordsWithAnEqualsSign) {
             (Readings{40.5, 40.25}));
 }
 
-// The letter O in a number is no unit.
+// The letter O in a number is not a unit.
 TEST_F(RecordingDoubts, ALetterWithinANumberIsNoUnit) {
   expect_said(refusal("C;Radius;Z\n0;20,1O5;1\n90;20,2;2\n10,5;20,2;2\n"),
               ":2:3: X: '20,1O5' is not a number: correct it, or remove the row");
 }
 
-// Points have no spindle angle to ask for: they are told the commands that read points.
+// Points have no spindle angle to ask for: the message has the commands that read points.
 TEST_F(RecordingDoubts, PointsWithoutAnAngleAreToldWhoReadsThem) {
   for (const char* const head : {"x,y,z\n", "X [mm],Y [mm],Z [mm]\n", ""}) {
     std::string text = head;
@@ -143,7 +144,7 @@ TEST_F(RecordingDoubts, AMessageForEachKindOfMistake) {
        {":4:6: X: 'n/a' is not a number: correct it, or remove the row (so too in 99 further "
         "places, in lines 14, 24",
         ":5:3: C is empty: write a number or remove the row (so too in 99 further places",
-        ":6:6: X: '1.040,5' is not a number: save numbers without a mark that parts thousands "
+        ":6:6: X: '1.040,5' is not a number: save numbers without a separator of thousands "
         "(so too in 99",
         ":7:18: the row has 6 fields, the table 5 columns: write one field per column (so too in "
         "99",

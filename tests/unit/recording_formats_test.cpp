@@ -261,7 +261,7 @@ TEST_F(RecordingFormats, CommasThatAreBothAreRefused) {
 
 TEST_F(RecordingFormats, GradIsNotGuessed) {
   const std::string message = what_is_said(put("Radius;C[Grad];Z\n40,5;0;1\n40,25;90;2\n"));
-  EXPECT_NE(message.find("unit 'Grad', which is none of deg, rad and rev"), std::string::npos)
+  EXPECT_NE(message.find("unit 'Grad', which is not one of deg, rad and rev"), std::string::npos)
       << message;
 }
 

@@ -73,7 +73,7 @@ Unexplained unexplained_from(const Json& json) {
 
 Diagnosis diagnosis_from(const Json& json, std::span<const Effect> own_effects) {
   if (json.at("schema") != diagnosis_schema)
-    throw InputError("diagnosis", std::string("is no ") + diagnosis_schema +
+    throw InputError("diagnosis", std::string("its schema is not ") + diagnosis_schema +
                                       ": write one with 'trueaxis diagnose --json'");
   Diagnosis d;
   d.own_effects = own_effects;

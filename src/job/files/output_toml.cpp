@@ -74,8 +74,7 @@ ControlTable read_output(TomlTable table, std::vector<std::string>& templates) {
   if (out.format == ControlFormat::beckhoff_crosscomp2) {
     const auto axis = [&](const char* key) {
       if (!table.has(key))
-        table.complain(key,
-                       std::string(key) + " is missing: the number of the axis in the control");
+        table.complain(key, "is missing: give the number of the axis in the control");
       return static_cast<int>(table.integer(key, 1, 1, 1000));
     };
     out.x_axis = axis("x_axis");

@@ -25,6 +25,9 @@ struct StreamReadOptions {
   bool drop_invalid = false;  ///< rows without a value (csv_is_no_value) are excluded and reported
   /// The command that was typed, without what says how a stream is read; empty: none, or a job.
   std::vector<std::string> typed{};
+
+  /// The source of `diameter`, in words.
+  const char* caller() const { return diameter_said_by == SaidBy::job ? "the job" : "the option"; }
 };
 
 /// What `options` say of the readings, as options of a command: "--diameter".

@@ -46,8 +46,8 @@ XConvention x_convention(const CsvHeader& header, const CsvKnownMetadata& known,
   const bool diameter = x->diameter || known.diameter.value_or(options.diameter.value_or(false));
   if (said && options.diameter && *options.diameter != diameter) {
     diagnostics.add(header.line, x->character,
-                    x->name + " is " + word(diameter) + " in the file and " +
-                        word(*options.diameter) + " for the caller: correct one");
+                    x->name + " is " + word(diameter) + " in the file, but " + options.caller() +
+                        " says " + word(*options.diameter) + ": correct one of them");
   }
   const SaidBy caller = options.diameter ? options.diameter_said_by : SaidBy::nobody;
   return {diameter, said ? SaidBy::stream : caller};
