@@ -10,7 +10,7 @@ const glossary = [
   ['Type A, type B', 'A comes from the scatter of the readings, B from other knowledge: a datasheet, a calibration, a setting.'],
   ['Not determined', 'The readings leave this number open, so none is given. More readings, another section or a longer arc would fix it.'],
   ['Remainder', 'With several references one axis cannot suit all. The remainder is the deviation that stays at each one.'],
-  ['Part frame', 'Turns with the part: x = X cos C, y = X sin C for a probe at the height of the spindle axis, z = Z. x and y of an axis are in it.'],
+  ['Part frame', 'Turns with the part: x = X cos C, y = X sin C for a probe at the height of the spindle axis, z = Z. The x and y of an axis are in it.'],
   ['Sense of C', 'C grows in the sense that the control shows as positive; sections and directions count the same way from +x.'],
   ['X_fts, command', 'X commanded minus X programmed, positive away from the spindle axis. The command is X_fts sent ahead of time, so that the actuator, which lags, arrives at the wanted place.'],
   ['Following error', 'The largest distance between where the tool is and where it is wanted, predicted from the actuator\'s response.'],

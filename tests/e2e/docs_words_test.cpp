@@ -126,8 +126,8 @@ TEST(DocsWords, CodesAreSaidWhereTheyAreUsed) {
     const std::size_t at = text.find("**The plans**");
     ASSERT_NE(at, std::string::npos) << name;
     for (const char* const plan :
-         {"P1 one helical pass", "P2 out and back;", "P3 out and back at two", "P4 out and back",
-          "P5 as P3", "P6 as P3", "P7 as P3", "P8 all"})
+         {"P1: one helical pass", "P2: out and back;", "P3: out and back at two",
+          "P4: out and back", "P5: as P3", "P6: as P3", "P7: as P3", "P8: all"})
       EXPECT_NE(text.find(plan, at), std::string::npos) << name << ' ' << plan;
   }
   // A page that is made again carries them: the scripts hold the same sentence.
