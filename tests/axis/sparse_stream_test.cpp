@@ -142,7 +142,7 @@ TEST(SparseDesign, HalfAsManyLobesAsAnglesShowOnePhase) {
   const Diagnosis d = diagnosed(of);
   ASSERT_EQ(d.findings.size(), 1U);
   EXPECT_TRUE(d.findings[0].may_be("part.roundness"));
-  EXPECT_NE(d.findings[0].alias.find("one phase of order 4 shows"), std::string::npos)
+  EXPECT_NE(d.findings[0].alias.find("show one phase of order 4"), std::string::npos)
       << d.findings[0].alias;
   EXPECT_TRUE(d.unexplained.empty());
   // The cosine of the phase, to five times σ √(1/40).
@@ -163,7 +163,7 @@ TEST(SparseDesign, LobesOfOneLessThanTheAnglesLookLikeEccentricity) {
   // x and y from 40 readings, to five times σ √(2/40).
   EXPECT_NEAR(judge(of, d.extended.axis).rms_mm(), amplitude_mm, 5.0 * 2e-3 * std::sqrt(2.0 / 40));
   EXPECT_TRUE(std::ranges::any_of(d.remarks, [](const std::string& remark) {
-    return remark.find("order 7, 9, 15, 17 … look like eccentricity") != std::string::npos;
+    return remark.find("Orders 7, 9, 15, 17 … look like eccentricity") != std::string::npos;
   }));
 }
 

@@ -94,7 +94,7 @@ TEST_F(MeasurementMistakes, ToolLengthOfAnother) {
     ASSERT_EQ(at["tool_length"], "120");
     at["tool_length"] = "60";
   });
-  expect_refused({"Z0A would be 59.9", "no machine is so far from its model", "tool length"});
+  expect_refused({"Z0A is 59.9", "no machine is so far from its model", "tool length"});
 }
 
 TEST_F(MeasurementMistakes, UnitsOfTheDeviations) {

@@ -66,7 +66,7 @@ TEST(NoUncertainty, OneSectionIsNoReferenceOfATarget) {
   const auto run = trueaxis_command("run " + (folder / "job.toml").string() + " -o " +
                                     (folder / "out").string());
   EXPECT_EQ(run.exit_code, 3) << run.output;
-  EXPECT_NE(run.output.find("shows no direction"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("does not show the direction"), std::string::npos) << run.output;
 }
 
 TEST(NoUncertainty, ANoseThatDoesNotFitIntoTheBoreIsRefused) {

@@ -164,8 +164,8 @@ TEST_F(PlanCommand, CorrelatedNoiseIsSaidToBePerReading) {
   slow.replace(slow.find("sigma_um = 3"), 12, "sigma_um = 3\nrho = 0.5");
   file("slow.toml", slow);
   const std::string ask = "study plan slow.toml --goal-um 3 --repeats 100 --free ";
-  EXPECT_TRUE(contains(command(ask + "readings_per_revolution=4:20").out, "lasts a time"));
-  EXPECT_FALSE(contains(command(ask + "length_mm=20:60").out, "lasts a time"));
+  EXPECT_TRUE(contains(command(ask + "readings_per_revolution=4:20").out, "persists in time"));
+  EXPECT_FALSE(contains(command(ask + "length_mm=20:60").out, "persists in time"));
 }
 
 TEST_F(PlanCommand, RefusesAndSaysHowNearItComes) {
