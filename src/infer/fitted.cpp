@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "infer/significance.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::infer {
 namespace {
@@ -14,9 +15,8 @@ namespace {
 double shared_width(const Projection& beside, const Columns& own, const Weighed& sizes) {
   Eigen::MatrixXd gram = beside.gram(own, own);
   gram.diagonal() += sizes.precision;
-  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
-  if (factor.info() != Eigen::Success) return 0.0;
-  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  const linear::Cholesky factor(gram);
+  return factor.positive_definite() ? factor.log_determinant() : 0.0;
 }
 Weighed joined(const std::vector<Weighed>& sizes) {
   Weighed out;

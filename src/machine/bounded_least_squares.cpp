@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine/bounded_least_squares.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -15,7 +16,7 @@ using Eigen::Vector3d;
 SmallVector least_with_held(const SmallMatrix& M, const Vector3d& c, const SmallVector& at,
                             const Eigen::Array<bool, Eigen::Dynamic, 1, 0, 6, 1>& free) {
   Vector3d rest = c;
-  SmallMatrix columns(3, 0);
+  Eigen::MatrixXd columns(3, 0);
   for (Index i = 0; i < M.cols(); ++i) {
     if (free[i]) {
       columns.conservativeResize(3, columns.cols() + 1);
@@ -26,10 +27,7 @@ SmallVector least_with_held(const SmallMatrix& M, const Vector3d& c, const Small
   }
   SmallVector y = at;
   if (columns.cols() == 0) return y;
-  Eigen::CompleteOrthogonalDecomposition<SmallMatrix> decomposition(columns.rows(), columns.cols());
-  decomposition.setThreshold(1e-13);
-  decomposition.compute(columns);
-  const SmallVector solved = decomposition.solve(-rest);
+  const Eigen::VectorXd solved = linear::least_squares(columns, Eigen::VectorXd(-rest), 1e-13);
   for (Index i = 0, k = 0; i < M.cols(); ++i)
     if (free[i]) y[i] = solved[k++];
   return y;

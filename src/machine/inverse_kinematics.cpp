@@ -6,6 +6,7 @@
 #include "machine/limits.hpp"
 #include "machine/rotary_solutions.hpp"
 #include "machine/screw.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -34,7 +35,8 @@ struct LinearProblem {
   /// Moves them to where the tip is nearest; the distance that is left.
   double solve(AxisPositions& axes) const {
     if (names.empty()) return left.norm();
-    const Eigen::VectorXd step = columns.colPivHouseholderQr().solve(left);
+    const Eigen::VectorXd step =
+        linear::pivoted_least_squares(Eigen::MatrixXd(columns), Eigen::VectorXd(left));
     for (std::size_t i = 0; i < names.size(); ++i)
       axes[names[i]] += step[static_cast<Eigen::Index>(i)];
     return (left - columns * step).norm();

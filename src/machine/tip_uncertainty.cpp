@@ -6,6 +6,7 @@
 #include "machine/screw.hpp"
 #include "machine/uncertainty.hpp"
 #include "math/covariance.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -15,27 +16,13 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Σ = L Lᵀ with the amounts in the order that makes L triangular, also where Σ has no inverse.
-struct Root {
-  Eigen::VectorXi order;
-  MatrixXd lower;
-
-  explicit Root(const MatrixXd& covariance) {
-    const Eigen::LDLT<MatrixXd> factors(covariance);
-    order =
-        factors.transpositionsP() *
-        Eigen::VectorXi::LinSpaced(covariance.rows(), 0, static_cast<int>(covariance.rows()) - 1);
-    lower = MatrixXd(factors.matrixL()) * factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  }
-};
-
 }  // namespace
 
 TipUncertainty::TipUncertainty(const MachineModel& model) : model_(model) {
   const ErrorModel& errors = model.errors();
   const auto& correlated = errors.covariance.names();
   if (!correlated.empty()) {
-    const Root root(matrix_of(errors.covariance));
+    const linear::PivotedRoot root = linear::pivoted_root(matrix_of(errors.covariance));
     for (const int i : root.order) {
       const UncertainAmount& amount = correlated[static_cast<std::size_t>(i)];
       add(amount.name, amount.unit());
@@ -79,7 +66,7 @@ Matrix3Xd TipUncertainty::causes(const AxisPositions& axes, const Setting& setti
   all.rightCols(u_.size()) *= u_.asDiagonal();
   const Index n = root_.rows();
   const Eigen::MatrixXd root = root_.triangularView<Eigen::Lower>().toDenseMatrix().cast<double>();
-  if (n > 0) all.leftCols(n) = (all.leftCols(n) * root).eval();
+  if (n > 0) all.leftCols(n) = linear::product(all.leftCols(n), root);
   return all;
 }
 

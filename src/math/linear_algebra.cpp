@@ -114,6 +114,13 @@ MatrixXd Cholesky::inverse() const {
   return solve(MatrixXd(MatrixXd::Identity(factors_.rows(), factors_.cols())));
 }
 
+PivotedRoot pivoted_root(const MatrixXd& covariance) {
+  const Eigen::LDLT<MatrixXd> factors(covariance);
+  const Eigen::Index n = covariance.rows();
+  return {factors.transpositionsP() * Eigen::VectorXi::LinSpaced(n, 0, static_cast<int>(n) - 1),
+          scaled_columns(factors.matrixL(), factors.vectorD().cwiseMax(0.0).cwiseSqrt())};
+}
+
 MatrixXd solve_lower(const Eigen::Ref<const MatrixXd>& l, const MatrixXd& b) {
   return l.triangularView<Eigen::Lower>().solve(b);
 }

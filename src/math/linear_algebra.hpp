@@ -97,6 +97,13 @@ class Cholesky {
  private:
   Eigen::LLT<MatrixXd> factors_;
 };
+/// Σ = L Lᵀ of a covariance, also one without inverse, its rows and columns in the order that makes
+/// L triangular.
+struct PivotedRoot {
+  Eigen::VectorXi order;
+  MatrixXd lower;
+};
+PivotedRoot pivoted_root(const MatrixXd& covariance);
 /// L⁻¹ B of the lower triangle of a matrix.
 MatrixXd solve_lower(const Eigen::Ref<const MatrixXd>& l, const MatrixXd& b);
 VectorXd solve_lower(const Eigen::Ref<const MatrixXd>& l, const VectorXd& b);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/linear_algebra.hpp"
 #include "surface/catalogue.hpp"
 #include "surface/revolved_surface.hpp"
 
@@ -36,7 +37,7 @@ class Plane final : public Surface {
       a.row(i) << 1.0, x * readings.cos_c[i], x * readings.sin_c[i];
     }
     const Eigen::Map<const Eigen::VectorXd> b(readings.reading_mm, n);
-    const Eigen::Vector3d c = a.colPivHouseholderQr().solve(b);
+    const Eigen::Vector3d c = linear::pivoted_least_squares(a, Eigen::VectorXd(b));
     return {c(0), c(1) / reach, c(2) / reach};
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/linear_algebra.hpp"
 #include "surface/catalogue.hpp"
 #include "surface/revolved_surface.hpp"
 
@@ -40,7 +41,7 @@ class Sphere final : public Surface {
       rows.row(i) << 2.0 * x, 2.0 * y, 2.0 * z, 1.0;
       square(i) = x * x + y * y + z * z;
     }
-    const Eigen::Vector4d c = rows.colPivHouseholderQr().solve(square);
+    const Eigen::Vector4d c = linear::pivoted_least_squares(rows, square);
     const double radius = std::sqrt(std::max(0.0, c(3) + c.head<3>().squaredNorm()));
     return {c(0), c(1), c(2) + frame_.position_ref_mm, radius};
   }

@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "math/linear_algebra.hpp"
 #include "surface/own_surface.hpp"
 #include "surface/revolved_surface.hpp"
 
@@ -60,7 +61,7 @@ class Torus final : public ProfileSurface {
       square(i) = h * h + r * r;
       mean += r / static_cast<double>(count);
     }
-    const Eigen::Vector3d c = rows.colPivHouseholderQr().solve(square);
+    const Eigen::Vector3d c = linear::pivoted_least_squares(rows, square);
     const double tube = std::sqrt(std::max(0.0, c(2) + c.head<2>().squaredNorm()));
     return {c(0) + frame().position_ref_mm, c(1), mean < c(1) ? -tube : tube};
   }

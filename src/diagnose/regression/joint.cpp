@@ -84,7 +84,7 @@ Eigen::MatrixXd covariance_of_ends(const LinearisationPoint& point, Eigen::Index
   ends << position_at(point, -1.0), position_at(point, 1.0);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(base, base);
   out.block(last_axis(point), last_axis(point), per, per) =
-      u_mm * u_mm * (ends.transpose() * ends).inverse() * (per < 4 ? 2.0 : 1.0);
+      u_mm * u_mm * linear::inverse(linear::gram(ends)) * (per < 4 ? 2.0 : 1.0);
   return out;
 }
 

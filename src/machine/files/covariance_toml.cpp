@@ -11,6 +11,7 @@
 #include "machine/files/toml_parts.hpp"
 #include "machine/uncertainty.hpp"
 #include "math/covariance.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -106,12 +107,12 @@ std::string trouble_of(const MatrixXd& matrix, const std::vector<UncertainAmount
       if (size > 0.0) correlation(i, j) = correlation(j, i) = matrix(i, j) / size;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
-  if (eigen.eigenvalues()[0] < -as_rounded * static_cast<double>(matrix.rows()))
+  const double least = linear::eigenvalues(correlation)[0];
+  if (least < -as_rounded * static_cast<double>(matrix.rows()))
     return fmt::format(
         "is not a covariance: a sum of its amounts would have a negative variance "
         "(least eigenvalue of the correlations {:.3g})",
-        eigen.eigenvalues()[0]);
+        least);
   return "";
 }
 
