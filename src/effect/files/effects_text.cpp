@@ -84,20 +84,23 @@ std::string scenario_keys_text(std::string_view id) {
 
 constexpr std::string_view head = R"(# The catalogue of effects
 
-Written by `trueaxis effects --markdown`; a test holds this page against the catalogue. The equations are in
+This page lists the effects of the catalogue: what the readings of a real turned part contain and an ideal cone, cylinder or
+plane does not. `trueaxis effects --markdown` writes it, and a test compares it with the catalogue. The equations are in
 [theory.md](../explanation/theory.md).
 
-What the readings of a real turned part contain and an ideal cone, cylinder or plane does not. An effect is a term in one slot of the measuring chain,
+An effect is a term in one slot of the measuring chain,
 
     (C, Z, t) → A arguments C', Z' → B probe line → C part's surface → D machine X → E sensor's response → X_M, with noise ε
 
-and is fixed to a frame: part, chuck, spindle, machine, probe or time. The frame decides how it changes when the part is
-clamped again, the spindle reversed, the speed changed or the probe sent back, and so which measurement tells two effects apart.
-Typical sizes are what machines show, not limits. rho is the form of the part along the normal of its surface, theta the polar
-angle about the part's own axis, s the place along it, and u is Z (for effects of the part: s) scaled to −1 … 1 over the probed length.
-P_l is Legendre's polynomial of degree l, alpha the half angle of a cone, omega the speed of the spindle, v_z that of Z, r (and R at the
-end) the distance from the axis of a face, i the angle of the normal to the probe line. A face is read along Z at (C, X): X_M is then its
-Z, u runs over the X probed, and s is the distance from the axis.
+and is fixed to a frame: part, chuck, spindle, machine, probe or time. The frame decides how it changes if the part is
+clamped again, the spindle reversed, the speed changed or the probe sent back. This decides which measurement tells two effects apart.
+Typical sizes are what machines show, not limits.
+
+In the formulas rho is the form of the part along the normal of its surface, theta the polar angle about the part's own axis, and s the
+place along it. The length u is Z (for effects of the part: s) scaled to −1 … 1 over the probed length. P_l is Legendre's polynomial of
+degree l, and alpha the half angle of a cone. The speed of the spindle is omega, that of Z v_z. On a face r (and R at the end) is the
+distance from the axis, and i is the angle of the normal to the probe line. A face is read along Z at (C, X): X_M is then its Z, u runs
+over the X probed, and s is the distance from the axis.
 
 )";
 
