@@ -59,6 +59,7 @@ set_source_files_properties(studies/published/assets.S PROPERTIES OBJECT_DEPENDS
 file(GLOB TRUEAXIS_CLI CONFIGURE_DEPENDS src/cli/*.cpp)
 list(REMOVE_ITEM TRUEAXIS_CLI "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
 add_library(trueaxis_cli STATIC ${TRUEAXIS_CLI})
+set_target_properties(trueaxis_cli PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_include_directories(trueaxis_cli PUBLIC src)
 target_compile_definitions(trueaxis_cli PUBLIC TRUEAXIS_VERSION="${PROJECT_VERSION}")
 target_link_libraries(trueaxis_cli PUBLIC trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog)

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/stop.hpp"
+
 namespace trueaxis {
 
 std::size_t threads_for(int asked, std::size_t count) {
@@ -22,11 +24,15 @@ void for_each_index_with(std::size_t count, int threads, const std::function<Ind
   std::mutex one_at_a_time;
   std::exception_ptr failure;
   std::size_t failed = count;
-  const auto loop = [&] {
+  const auto loop = [&, asked = stopped_by()] {
     std::size_t i = 0;
     try {
+      const Stoppable stoppable(asked);
       const IndexedWork work = make();
-      for (i = next++; i < count; i = next++) work(i);
+      for (i = next++; i < count; i = next++) {
+        stop_if_asked();
+        work(i);
+      }
     } catch (...) {
       // Every index below i is done or still at work, so the least that fails is always found.
       next = count;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/checked_fit.hpp"
 
+#include <utility>
+
 #include "format/reason_words.hpp"
 #include "job/doubts.hpp"
 
@@ -15,6 +17,21 @@ FitResult checked_fit(const ProbeStream& stream, const FitOptions& options) {
   if (const auto why = few_angles_of(stream); why && result.axis_known())
     result.notes.push_back(words_of(*why));
   return result;
+}
+
+CheckedDiagnosis checked_diagnosis(ProbeStream stream, const DiagnoseOptions& options) {
+  CheckedDiagnosis out;
+  out.stream = corrected_by_known(std::move(stream), options.fit);
+  out.diagnosis = diagnose(out.stream, options);
+  if (const auto why = why_axis_unknown(out.stream, out.diagnosis))
+    withhold_axis(out.diagnosis, words_of(*why));
+  out.form = part_form({out.stream, &out.diagnosis}, options.fit, {});
+  return out;
+}
+
+const FitResult& CheckedDiagnosis::deciding_fit() const {
+  return diagnosis.baseline.status != FitStatus::converged ? diagnosis.baseline
+                                                           : diagnosis.extended;
 }
 
 }  // namespace trueaxis::cli

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/counted.hpp"
+#include "cli/checked_fit.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -14,8 +15,6 @@
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
-#include "format/reason_words.hpp"
-#include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/stream_job.hpp"
 #include "report/report.hpp"
@@ -31,13 +30,6 @@ struct DiagnoseArguments {
   Results results;
   bool verbose = false, check = false;
 };
-
-/// The fit that broke, or nullptr.
-const FitResult* broken_fit(const Diagnosis& diagnosis) {
-  if (diagnosis.baseline.status != FitStatus::converged) return &diagnosis.baseline;
-  if (diagnosis.extended.status != FitStatus::converged) return &diagnosis.extended;
-  return nullptr;
-}
 
 int execute(const DiagnoseArguments& options) {
   const Results& results = options.results;
@@ -58,26 +50,24 @@ int execute(const DiagnoseArguments& options) {
   DiagnoseOptions diagnose_options;
   diagnose_options.fit = options.association.chosen();
   diagnose_options.false_alarm = options.false_alarm;
-  stream = corrected_by_known(std::move(stream), diagnose_options.fit);
-  Diagnosis diagnosis = diagnose(stream, diagnose_options);
-  if (const auto why = why_axis_unknown(stream, diagnosis))
-    withhold_axis(diagnosis, words_of(*why));
-  const PartForm form = part_form({stream, &diagnosis}, diagnose_options.fit, {});
+  const CheckedDiagnosis found = checked_diagnosis(std::move(stream), diagnose_options);
+  const Diagnosis& diagnosis = found.diagnosis;
   waiting.reset();
   expect_enough_readings(diagnosis.baseline);
-  results.write(outputs, "--json", [&] { return diagnosis_with_form(diagnosis, form); });
-  results.write(outputs, "--residuals", [&] { return residuals_csv(stream, diagnosis); });
+  results.write(outputs, "--json", [&] { return diagnosis_with_form(diagnosis, found.form); });
+  results.write(outputs, "--residuals", [&] { return residuals_csv(found.stream, diagnosis); });
   results.write(outputs, "--report", [&] {
-    return render_diagnosis_report(stream, diagnosis, diagnose_options.fit, form);
+    return render_diagnosis_report(found.stream, diagnosis, diagnose_options.fit, found.form);
   });
   outputs.commit();
   if (!results.printed() && options.verbose)
-    std::cout << diagnosis_text(diagnosis) << part_form_text(form);
+    std::cout << diagnosis_text(diagnosis) << part_form_text(found.form);
+  const FitResult& deciding = found.deciding_fit();
   if (!results.printed() && !options.verbose)
-    print_screen(
-        diagnosis_screen(diagnosis, broken_fit(diagnosis) ? "" : part_form_screen(form, "")));
-  const FitResult* broken = broken_fit(diagnosis);
-  return exit_code_of(broken ? *broken : diagnosis.extended, stream.source);
+    print_screen(diagnosis_screen(diagnosis, deciding.status == FitStatus::converged
+                                                 ? part_form_screen(found.form, "")
+                                                 : ""));
+  return exit_code_of(deciding, found.stream.source);
 }
 
 }  // namespace

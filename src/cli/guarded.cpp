@@ -27,14 +27,17 @@ int guarded(const std::function<int()>& run) {
   }
 }
 
+Ending ending_of(const FitResult& fit, const std::string& source) {
+  if (fit.status != FitStatus::converged)
+    return {numerical, source + ": " + to_string(fit.status) + ": " + fit.message};
+  if (fit.axis_known()) return {};
+  return {refused, "refused: " + source + ": the axis is not known"};
+}
+
 int exit_code_of(const FitResult& fit, const std::string& source) {
-  if (fit.status != FitStatus::converged) {
-    std::cerr << source << ": " << to_string(fit.status) << ": " << fit.message << '\n';
-    return numerical;
-  }
-  if (fit.axis_known()) return done;
-  std::cerr << "refused: " << source << ": the axis is not known\n";
-  return refused;
+  const Ending ending = ending_of(fit, source);
+  if (ending.code != done) std::cerr << ending.why << '\n';
+  return ending.code;
 }
 
 }  // namespace trueaxis::cli

@@ -28,7 +28,13 @@ enum Exit {
 int guarded(const std::function<int()>& run);
 
 /// What a script that takes the axis of `fit` has to know: numerical where it failed, refused where
-/// its axis is not known, said on standard error.
+/// its axis is not known.
+struct Ending {
+  Exit code = done;
+  std::string why;
+};
+Ending ending_of(const FitResult& fit, const std::string& source);
+/// The same, said on standard error.
 int exit_code_of(const FitResult& fit, const std::string& source);
 
 /// `--check`: the command reads everything and looks at every place of a result. It computes and

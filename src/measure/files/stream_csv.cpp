@@ -2,8 +2,10 @@
 #include "measure/files/stream_csv.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -54,6 +56,17 @@ class LineReader {
     for (std::size_t k = 0; k < count; ++k) {
       ++line_number_;
       if (!rows_->take(numbers.subspan(k * width, width))) rows_->any_row(text_of(k), line_number_);
+    }
+  }
+
+  /// Columns below the header that are numbers already; all at once if nothing is unusual.
+  void columns(std::span<const std::span<const double>> columns) {
+    if (!rows_ || rows_->take_columns(columns)) return;
+    std::vector<double> row(columns.size());
+    for (std::size_t i = 0; i < columns.front().size(); ++i) {
+      ++line_number_;
+      std::ranges::transform(columns, row.begin(), [i](const auto& column) { return column[i]; });
+      if (!rows_->take(row)) rows_->any_row(fmt::format("{}", fmt::join(row, ",")), line_number_);
     }
   }
 
@@ -215,6 +228,25 @@ ProbeStream read_stream_rows(std::string_view head, std::span<const double> numb
     if (lines.block(head.data(), head.data() + head.size())) lines.rows(numbers, text_of);
   };
   return read_from(source, options, feed, std::move(line_of));
+}
+
+ProbeStream read_stream_columns(std::string_view head,
+                                std::span<const std::span<const double>> columns,
+                                const std::string& source, const StreamReadOptions& options) {
+  StreamingHash hash;
+  hash.add(head.data(), head.size());
+  for (const std::span<const double> column : columns) {
+    expects(column.size() == columns.front().size(), "columns of equal length");
+    hash.add(reinterpret_cast<const char*>(column.data()), column.size_bytes());
+  }
+  const auto feed = [&](LineReader& lines) {
+    if (lines.block(head.data(), head.data() + head.size())) lines.columns(columns);
+  };
+  const auto above = static_cast<std::size_t>(std::ranges::count(head, '\n'));
+  const auto row_of = [above](std::size_t line) { return line > above ? line - above : 0; };
+  ProbeStream stream = read_from(source, options, feed, row_of);
+  stream.input_hash = hash.text();
+  return stream;
 }
 
 }  // namespace trueaxis

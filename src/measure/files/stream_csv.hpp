@@ -49,4 +49,10 @@ ProbeStream read_stream_rows(std::string_view head, std::span<const double> numb
                              const std::string& source, const StreamReadOptions& options,
                              std::function<std::size_t(std::size_t)> line_of);
 
+/// The same of a head and columns of equal length, in the order of its header: arrays of a program.
+/// input_hash is of the head and of the bytes of the numbers; a message gives the row from 1.
+ProbeStream read_stream_columns(std::string_view head,
+                                std::span<const std::span<const double>> columns,
+                                const std::string& source, const StreamReadOptions& options = {});
+
 }  // namespace trueaxis

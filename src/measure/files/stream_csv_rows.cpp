@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/files/stream_csv_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "base/number.hpp"
 #include "format/csv_text.hpp"
@@ -118,6 +120,23 @@ bool CsvRows::take(std::span<const double> row) {
   }
   row_.assign(row.begin(), row.end());
   return accept();
+}
+
+bool CsvRows::take_columns(std::span<const std::span<const double>> columns) {
+  if (!all_known_ || columns.size() != targets_.size()) return false;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    bool usual = true;
+    for (const double value : columns[k]) usual &= std::abs(value) < largest;  // no NaN is
+    if (!usual) return false;
+    if (targets_[k].whole != nullptr && !std::ranges::all_of(columns[k], fits_int)) return false;
+    if (k == time_at_ && !std::ranges::is_sorted(columns[k])) return false;
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto [first, last] = std::pair(columns[k].begin(), columns[k].end());
+    if (targets_[k].numbers != nullptr) targets_[k].numbers->assign(first, last);
+    if (targets_[k].whole != nullptr) targets_[k].whole->assign(first, last);
+  }
+  return true;
 }
 
 bool CsvRows::accept() {

@@ -29,6 +29,9 @@ class CsvRows {
   /// Takes a row of numbers if nothing about it is unusual.
   bool take(std::span<const double> row);
 
+  /// Takes whole columns of numbers if nothing about any row is unusual, else nothing.
+  bool take_columns(std::span<const std::span<const double>> columns);
+
   /// Reads a row whatever it looks like (no line end, no comment); what is wrong is a diagnostic.
   void any_row(std::string_view line, std::size_t line_number);
 

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is not clear is asked for, what is wrong is said with the command's words, and Ctrl-C ends work."""
+import os
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trueaxis as ta
+
+ROOT = Path(__file__).resolve().parents[2]
+COMMAND = os.environ["TRUEAXIS_COMMAND"]
+STREAM = ROOT / "data/streams/shaft_cone_seat.csv"
+UNITS = {"x_unit": "mm radius", "c_unit": "rad", "z_unit": "mm"}
+
+
+def cylinder(n=400):
+    c, z = np.linspace(0.0, 60.0, n), np.linspace(0.0, 30.0, n)
+    return 20.0 + 0.05 * np.cos(c), c, z
+
+
+@pytest.mark.parametrize("left_out", ["x_unit", "c_unit", "z_unit"])
+def test_no_unit_is_guessed(left_out):
+    x, c, z = cylinder()
+    units = {key: unit for key, unit in UNITS.items() if key != left_out}
+    with pytest.raises(ta.InputError, match="say what x is"):
+        ta.fit(x, c, z, surface="cylinder", **units)
+
+
+@pytest.mark.parametrize("x_unit", ["mm", "radius", "furlong radius"])
+def test_a_unit_must_say_all(x_unit):
+    x, c, z = cylinder()
+    with pytest.raises(ta.InputError):
+        ta.fit(x, c, z, surface="cylinder", **{**UNITS, "x_unit": x_unit})
+
+
+def test_radius_or_diameter_is_not_guessed_from_a_column():
+    x, c, z = cylinder()
+    with pytest.raises(ta.InputError, match="X_M"):
+        ta.fit({"X_M[mm]": x, "C[rad]": c, "Z[mm]": z}, surface="cylinder")
+
+
+def test_wrong_arrays_are_refused():
+    x, c, z = cylinder()
+    with pytest.raises(ta.InputError, match="equal length"):
+        ta.fit(x, c[:-1], z, surface="cylinder", **UNITS)
+    for value in (np.nan, np.inf, 1e301):
+        broken = x.copy()
+        broken[7] = value
+        with pytest.raises(ta.InputError, match="arrays:8"):
+            ta.fit(broken, c, z, surface="cylinder", **UNITS)
+    with pytest.raises(ta.InputError, match="C never moves"):
+        ta.fit(x, 0 * c, z, surface="cylinder", **UNITS)
+    with pytest.raises(ValueError):
+        ta.fit(["a"], ["b"], ["c"], surface="cylinder", **UNITS)
+
+
+def test_rows_without_a_value_are_left_out_if_asked():
+    x, c, z = cylinder()
+    x[[7, 9]] = np.nan
+    stream = ta.stream(x, c, z, drop_invalid=True, **UNITS)
+    assert len(stream) == len(x) - 2 and stream.read_as
+
+
+@pytest.mark.parametrize("option", [{"surface": "coin"}, {"loss": "none"}, {"noise_um": -1.0}, {"noise_um": np.nan},
+                                    {"ball_radius_mm": -1.0}, {"coverage_factor": 0.0}])
+def test_wrong_options_are_refused(option):
+    x, c, z = cylinder()
+    with pytest.raises(ta.InputError):
+        ta.fit(x, c, z, **{"surface": "cylinder", **UNITS, **option})
+
+
+def test_the_text_is_that_of_the_command():
+    words = [COMMAND, "fit", "data/streams/none.csv", "--surface", "cone"]
+    said = subprocess.run(words, capture_output=True, text=True, cwd=ROOT).stderr.strip()
+    os.chdir(ROOT)
+    with pytest.raises(ta.InputError) as error:
+        ta.fit("data/streams/none.csv", surface="cone")
+    assert str(error.value) == said
+
+
+def test_what_is_not_determined_is_an_error_with_what_is():
+    x, c, z = cylinder()
+    with pytest.raises(ta.NumericalError) as error:  # a cylinder of no length has no direction
+        ta.fit(x, c, 0 * z, surface="cylinder", **UNITS)
+    result = error.value.result
+    assert result.status == "rank_deficient" and not np.isfinite(result.l.u)
+
+
+def test_few_readings_are_an_input_error():
+    x, c, z = cylinder(4)
+    with pytest.raises(ta.InputError, match="probe more"):
+        ta.fit(x, c, z, surface="cylinder", **UNITS)
+
+
+def test_points_have_three_coordinates():
+    with pytest.raises(ta.InputError, match="x, y, z"):
+        ta.associate(np.zeros((5, 2)), element="circle")
+    with pytest.raises(ta.InputError):
+        ta.associate(np.zeros((5, 3)), element="circle", criterion="best")
+    with pytest.raises(ta.InputError, match="material"):
+        ta.associate(np.zeros((5, 3)), element="circle", criterion="constrained")
+
+
+def test_progress_is_called_and_may_end_the_work():
+    seen = []
+
+    class Enough(Exception):
+        pass
+
+    def progress(seconds):
+        seen.append(seconds)
+        raise Enough
+
+    scenario = ROOT / "data/sweeps/noise.toml"
+    with pytest.raises(Enough):
+        ta.sweep(scenario, progress=progress)
+    assert seen and 0.0 < seen[0] < 1.0
+
+
+LONG = {
+    "sweep": "ta.sweep('data/sweeps/table1.toml')",
+    "plan": "ta.plan(goal_um=0.2, free={'readings_per_revolution': (4, 400)}, repeats=100000)",
+    "form": "ta.form('data/streams/shaft_cone_seat.csv', trials=1000000, band_upr=(1, 15))",
+    "diagnose": "ta.diagnose(x, c, z, surface='cone', x_unit='mm radius', c_unit='rad', z_unit='mm')",
+    "run_job": "ta.run_job('data/jobs/shaft.toml')",
+}
+
+
+@pytest.mark.parametrize("work", LONG)
+def test_ctrl_c_ends_work(work):
+    """A process of its own is told to stop 0.3 s after it began; what it then takes is asked of its own clock."""
+    made = """
+import time, signal, threading, os, numpy as np, trueaxis as ta
+n = 300000
+c, z = np.linspace(0, 3000, n), np.linspace(0, 60, n)
+x = 25 + z / 8 + 0.05 * np.cos(c) + 1e-3 * np.random.default_rng(1).normal(size=n) + 2e-3 * np.cos(3 * c)
+told = []
+def tell():
+    time.sleep(0.3); told.append(time.perf_counter()); os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=tell).start()
+try:
+    %s
+    print("ended before")
+except KeyboardInterrupt:
+    print(time.perf_counter() - told[0])
+""" % LONG[work]
+    ran = subprocess.run([sys.executable, "-c", made], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    if ran.stdout.strip() == "ended before":
+        pytest.skip("this machine is quicker than 0.3 s")
+    # 0.2 s is what is promised on an idle machine; in a suite on all its cores four times as much is allowed.
+    assert ran.stdout and float(ran.stdout) < 0.8, ran.stdout + ran.stderr
+
+
+def test_other_threads_of_python_go_on():
+    beats = []
+    ended = threading.Event()
+
+    def beat():
+        while not ended.is_set():
+            beats.append(time.perf_counter())
+            time.sleep(0.005)
+
+    thread = threading.Thread(target=beat)
+    thread.start()
+    begun = time.perf_counter()
+    ta.diagnose(STREAM, surface="cone")
+    passed = time.perf_counter() - begun
+    ended.set()
+    thread.join()
+    during = [one for one in beats if begun < one < begun + passed]
+    assert len(during) > 0.1 * passed / 0.005
+
+
+def test_commands_in_threads_do_not_mix_their_words():
+    results = {}
+
+    def plan(goal_um):
+        results[goal_um] = ta.plan(goal_um=goal_um, free={"readings_per_revolution": (4, 200)}, repeats=100)
+
+    threads = [threading.Thread(target=plan, args=(goal,)) for goal in (1.0, 2.0)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for goal_um, found in results.items():
+        assert f"{goal_um:g} µm" in str(found)

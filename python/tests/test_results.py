@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results: values, units, arrays and JSON, against the truth of made readings and against the command."""
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trueaxis as ta
+
+ROOT = Path(__file__).resolve().parents[2]
+COMMAND = os.environ["TRUEAXIS_COMMAND"]
+SIGMA_MM = 1e-3
+
+
+def cone(n=2000, seed=3, half_angle_deg=7.0, offset_mm=0.08):
+    """Readings of a cone of 25 mm at Z = 0 whose axis is parallel to the spindle, by Eq. 7 written out:
+    the probe along Y = 0 meets radius r about a centre (a cos C, a sin C) at X = a cos C + sqrt(r² − a² sin² C)."""
+    rng = np.random.default_rng(seed)
+    c, z = np.linspace(0.0, 2.0 * np.pi * n / 40.0, n), np.linspace(0.0, 40.0, n)
+    r = 25.0 + z * np.tan(np.radians(half_angle_deg))
+    x = offset_mm * np.cos(c) + np.sqrt(r**2 - (offset_mm * np.sin(c)) ** 2)
+    return x + rng.normal(0.0, SIGMA_MM, n), c, z
+
+
+UNITS = {"x_unit": "mm radius", "c_unit": "rad", "z_unit": "mm"}
+
+
+def test_a_fit_finds_the_part_within_its_uncertainty():
+    x, c, z = cone()
+    fit = ta.fit(x, c, z, surface="cone", **UNITS)
+    # P(|error| > 4.5 u) = 7e-6 for a normal error; the seed is fixed.
+    for name, truth in (("half_angle", 7.0), ("x0", 0.08), ("y0", 0.0), ("l", 0.0), ("m", 0.0)):
+        one = getattr(fit, name)
+        assert abs(one.value - truth) < 4.5 * one.u, name
+    assert fit.half_angle.unit == "deg" and fit.x0.unit == "mm"
+    assert fit.half_angle.U == 2.0 * fit.half_angle.u
+    # RMS of n readings less 6 parameters: σ within 5/√(2n) of itself.
+    assert abs(fit.rms.value / SIGMA_MM - 1.0) < 5.0 / np.sqrt(2 * len(x))
+
+
+def test_the_units_of_the_arrays_are_those_said():
+    x, c, z = cone()
+    first = ta.fit(x, c, z, surface="cone", **UNITS)
+    same = [ta.fit(2.0 * x, np.degrees(c), z / 25.4, surface="cone", x_unit="mm diameter", c_unit="deg", z_unit="in"),
+            ta.fit({"X_M[um dia]": 2000.0 * x, "C[rev]": c / (2.0 * np.pi), "Z[mm]": z}, surface="cone")]
+    for other in same:
+        assert other.half_angle.value == pytest.approx(first.half_angle.value, abs=1e-9)
+        assert other.x0.value == pytest.approx(first.x0.value, abs=1e-9)
+
+
+def test_arrays_are_views_and_do_not_change():
+    x, c, z = cone()
+    stream = ta.stream(x, c, z, **UNITS)
+    fit = ta.fit(stream, surface="cone")
+    residual = fit.residual_mm
+    assert residual.shape == x.shape and not residual.flags.writeable and not residual.flags.owndata
+    assert np.sqrt(np.mean(residual**2)) == pytest.approx(fit.rms.value, rel=1e-12)
+    assert np.array_equal(stream.reading_mm, x)
+    del fit, stream
+    assert np.isfinite(residual).all()
+    with pytest.raises(ValueError):
+        residual[0] = 1.0
+
+
+def test_results_do_not_change():
+    x, c, z = cone()
+    fit = ta.fit(x, c, z, surface="cone", **UNITS)
+    for change in (lambda: setattr(fit, "rms", 0.0), lambda: setattr(fit.noise, "sigma", 0.0),
+                   lambda: setattr(fit.x0, "value", 0.0)):
+        with pytest.raises(AttributeError):
+            change()
+    before = fit.to_dict()
+    before["parameters"].clear()
+    assert fit.to_dict()["parameters"]
+    with pytest.raises(AttributeError, match="half_angle"):
+        fit.half_anlge
+
+
+def test_the_covariance_has_names():
+    x, c, z = cone()
+    fit = ta.fit(x, c, z, surface="cone", **UNITS)
+    covariance = fit.covariance
+    assert covariance.names == ("x0", "y0", "l", "m", "k", "half_angle")
+    for i, name in enumerate(covariance.names):
+        assert np.sqrt(covariance.matrix[i, i]) == pytest.approx(getattr(fit, name).u, rel=1e-9)
+    assert np.allclose(np.diag(covariance.correlation()), 1.0)
+    assert covariance.between("x0", "l") == covariance.matrix[0, 2]
+
+
+def command(*words, code=0):
+    ran = subprocess.run([COMMAND, *map(str, words)], capture_output=True, text=True, cwd=ROOT)
+    assert ran.returncode == code, ran.stderr
+    return ran.stdout
+
+
+STREAM = ROOT / "data/streams/shaft_cone_seat.csv"
+
+
+def test_to_dict_is_the_json_of_the_command():
+    path = "data/streams/shaft_cone_seat.csv"
+    os.chdir(ROOT)
+    assert ta.fit(path, surface="cone").to_dict() == json.loads(command("fit", path, "--surface", "cone", "--json", "-"))
+    assert ta.fit(path, surface="cone", loss="huber", noise_um=3).to_json() == command(
+        "fit", path, "--surface", "cone", "--loss", "huber", "--noise-um", "3", "--json", "-")
+    assert ta.diagnose(path, surface="cone").to_json() == command(
+        "diagnose", path, "--surface", "cone", "--json", "-")
+    assert ta.form(path, band_upr=(1, 15)).to_json() == command("form", path, "--upr", "1-15", "--json", "-")
+
+
+def test_print_shows_the_screen_of_the_command():
+    os.chdir(ROOT)
+    fit = ta.fit("data/streams/shaft_cone_seat.csv", surface="cone")
+    lines = str(fit).splitlines()
+    shown = command("fit", "data/streams/shaft_cone_seat.csv", "--surface", "cone").splitlines()
+    assert lines[0] == shown[0]
+    assert lines[0] in repr(fit)
+
+
+def test_pandas_has_every_quantity():
+    x, c, z = cone()
+    fit = ta.fit(x, c, z, surface="cone", **UNITS)
+    table = fit.to_pandas()
+    assert table.loc["parameters.half_angle", "unit"] == "deg"
+    assert table.loc["parameters.half_angle", "U"] == fit.half_angle.U
+    diagnosis = ta.diagnose(STREAM, surface="cone")
+    assert len(diagnosis.to_pandas()) > len(table)
+
+
+def test_a_notebook_shows_headline_and_chart():
+    page = ta.diagnose(STREAM, surface="cone")._repr_html_()
+    assert page.startswith("<pre>") and "<svg" in page and "&amp;" not in page.split("</pre>")[0].replace("&amp;", "", 0)
+
+
+def test_points_are_associated():
+    rng = np.random.default_rng(5)
+    angle, height = rng.uniform(0, 2 * np.pi, 400), rng.uniform(0, 30, 400)
+    points = np.stack([1.0 + 10.0 * np.cos(angle), 2.0 + 10.0 * np.sin(angle), height], axis=1)
+    found = ta.associate(points, element="cylinder", criterion="minimum_zone")
+    assert abs(found.to_dict()["radius"]["value"] - 10.0) < 1e-9
+    assert np.abs(found.distance_mm).max() < 1e-9
+    circle = ta.form(points[:, :3] * [1, 1, 0], element="circle", band_upr=(1, 15))
+    assert "RONt" in circle.to_json()
+
+
+def test_a_simulation_knows_its_truth():
+    made = ta.simulate({"part": {"surface": "cylinder", "radius_mm": 20.0, "x0_mm": 0.05},
+                        "noise": {"sigma_mm": 1e-3},
+                        "pass": [{"z_start_mm": 0, "z_end_mm": -20, "feed_mm_per_rev": 1.0, "speed_rpm": 60,
+                                  "readings_per_revolution": 40}]}, seed=7)
+    assert made.truth.clean_mm.shape == made.stream.reading_mm.shape
+    left = made.stream.reading_mm - made.truth.clean_mm
+    assert abs(left.std() / 1e-3 - 1.0) < 5.0 / np.sqrt(2 * len(left))
+    fit = ta.fit(made.stream, surface="cylinder")
+    assert abs(fit.x0.value - 0.05) < 4.5 * fit.x0.u

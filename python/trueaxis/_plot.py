@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Figures of results, with matplotlib; one function a kind of chart."""
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._errors import TrueAxisError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ._result import Result
+
+_UM = 1000.0
+_LINE, _OTHER, _GREY = "#1f5fa8", "#c8501e", "#808080"  # told apart in print and without colour vision
+
+
+def _over_c_and_z(axes: Axes, result: Result, residual_mm: Any) -> None:
+    """Residuals over C and Z, µm; of one section over C alone."""
+    stream = result.stream
+    assert stream is not None
+    c_deg = np.degrees(stream.c_rad) % 360.0
+    residual_um = _UM * np.asarray(residual_mm)
+    largest = float(np.quantile(np.abs(residual_um), 0.99)) or 1.0
+    if len(stream.position_mm):
+        points = axes.scatter(c_deg, stream.position_mm, c=residual_um, s=5, cmap="RdBu_r", vmin=-largest, vmax=largest)
+        axes.figure.colorbar(points, ax=axes, label="residual, µm")
+        axes.set_ylabel("X, mm" if stream.is_face else "Z, mm")
+    else:
+        axes.plot(c_deg, residual_um, ".", ms=2, color=_LINE)
+        axes.set_ylabel("residual, µm")
+    axes.set(title="Residuals", xlabel="C, degrees", xlim=(0, 360))
+
+
+def _polar(axes: Axes, angle_rad: Any, values_mm: Any, title: str, **style: Any) -> None:
+    """A profile about a circle, in µm, magnified so that its range is a third of the radius."""
+    values_um = _UM * np.asarray(values_mm)
+    axes.plot(angle_rad, values_um, **{"lw": 0.8, "color": _LINE, **style})
+    span = float(np.ptp(values_um)) or 1.0
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, values_um.min() - 2.0 * span), max(high, values_um.max() + 0.2 * span))
+    axes.set_title(title)
+    axes.tick_params(labelsize=7)
+
+
+def _round(axes: Axes, result: Result, residual_mm: Any) -> None:
+    assert result.stream is not None
+    angle = result.stream.c_rad % (2.0 * np.pi)
+    _polar(axes, angle, residual_mm, "Roundness, µm", ls="", marker=".", ms=2)
+
+
+def _axis(axes: Axes, fit: Any) -> None:
+    """The axis over Z with a band of ± U."""
+    axis, low, high = fit.axis, fit.range.min.value, fit.range.max.value
+    z = np.linspace(low, high, 50) if high > low else np.array([low - 0.5, low + 0.5])
+    h = z - axis.z_ref.value
+    k = getattr(fit, "coverage_factor", 2.0)
+    for name, slope, colour, row in (("x", "slope_x", _LINE, 0), ("y", "slope_y", _OTHER, 1)):
+        value = axis[name].value + h * axis[slope].value
+        cov = axis.covariance.matrix
+        u = np.sqrt(np.maximum(cov[row, row] + 2 * h * cov[row, row + 2] + h * h * cov[row + 2, row + 2], 0.0))
+        axes.plot(z, _UM * value, color=colour, label=name)
+        axes.fill_between(z, _UM * (value - k * u), _UM * (value + k * u), color=colour, alpha=0.25, lw=0)
+    axes.set(title=f"Axis ± U (k = {k:g})", xlabel="Z, mm", ylabel="offset from the spindle axis, µm")
+    axes.legend(frameon=False)
+
+
+def _spectrum(axes: Axes, result: Result) -> None:
+    axes.vlines(result.spectrum_order, 0, _UM * result.spectrum_before_mm, color=_GREY, lw=2, label="before")
+    axes.vlines(result.spectrum_order, 0, _UM * result.spectrum_after_mm, color=_LINE, lw=1, label="after")
+    axes.set(title="Spectrum of the residuals", xlabel="undulations per revolution", ylabel="amplitude, µm")
+    axes.legend(frameon=False)
+
+
+def _figure(*kinds: str) -> tuple[Figure, list[Axes]]:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(4.2 * len(kinds), 3.6), layout="constrained")
+    return figure, [figure.add_subplot(1, len(kinds), i + 1, projection="polar" if kind == "polar" else None)
+                    for i, kind in enumerate(kinds)]
+
+
+def _of_fit(result: Result) -> Figure:
+    figure, (over, around, axis) = _figure("", "polar", "")
+    _over_c_and_z(over, result, result.residual_mm)
+    _round(around, result, result.residual_mm)
+    if result.stream is not None and result.stream.is_face:
+        figure.delaxes(axis)
+    else:
+        _axis(axis, result)
+    return figure
+
+
+def _of_diagnosis(result: Result) -> Figure:
+    figure, (over, around, spectrum, axis) = _figure("", "polar", "", "")
+    _over_c_and_z(over, result, result.residual_before_mm)
+    _round(around, result, result.residual_before_mm)
+    _spectrum(spectrum, result)
+    if result.stream is not None and result.stream.is_face:
+        figure.delaxes(axis)
+    else:
+        _axis(axis, result.extended)
+    return figure
+
+
+def _of_form(result: Result) -> Figure:
+    figure, (around,) = _figure("polar")
+    section = len(result.sections) // 2
+    angle, raw, filtered = (getattr(result, f"{name}_{section}") for name in ("angle_rad", "raw_mm", "filtered_mm"))
+    _polar(around, angle, raw, "", color=_GREY, label="raw")
+    _polar(around, angle, filtered, f"Section {section + 1}, µm", lw=1.6, label="filtered")
+    around.legend(frameon=False, loc="lower left", fontsize=7)
+    return figure
+
+
+def _of_spindle(result: Result) -> Figure:
+    figure, (motion, form) = _figure("polar", "polar")
+    _polar(motion, result.angle_rad, result.motion_mm, "Error motion of the spindle, µm")
+    if len(result.form_mm):
+        _polar(form, result.angle_rad, result.form_mm, "Form of the part, µm")
+    return figure
+
+
+def _of_correction(result: Result) -> Figure:
+    figure, (axes,) = _figure("")
+    turns = result.c_rad / (2.0 * np.pi)
+    once = np.abs(turns - turns[0]) <= 1.0
+    axes.plot(np.degrees(result.c_rad[once]), _UM * result.wanted_mm[once], color=_GREY, label="wanted")
+    axes.plot(np.degrees(result.c_rad[once]), _UM * result.command_mm[once], color=_LINE, label="command")
+    axes.set(title="Correction, first revolution", xlabel="C, degrees", ylabel="X_fts, µm")
+    axes.legend(frameon=False)
+    return figure
+
+
+def _of_association(result: Result) -> Figure:
+    figure, (axes,) = _figure("")
+    axes.plot(_UM * result.distance_mm, ".", ms=2, color=_LINE)
+    axes.set(title="Distances from the element", xlabel="point", ylabel="distance, µm")
+    return figure
+
+
+_KINDS: dict[str, Callable[[Result], Figure]] = {
+    "trueaxis.fit": _of_fit, "trueaxis.diagnosis": _of_diagnosis, "trueaxis.form": _of_form,
+    "trueaxis.spindle": _of_spindle, "trueaxis.run": _of_correction, "trueaxis.association": _of_association,
+}
+
+
+def figure_of(result: Result) -> Figure:
+    """Returns the figure of a result.."""
+    kind = str(result.schema).split("/")[0]
+    draw = _KINDS.get(kind)
+    if draw is None or result._outcome is None or (kind == "trueaxis.run" and not len(result.c_rad)):
+        raise TrueAxisError(f"{result.schema} has no figure; its report may: result.files")
+    return draw(result)
+
+
+def svg_of(result: Result) -> str:
+    """Returns the figure as SVG for a notebook; empty without matplotlib or a figure."""
+    try:
+        text = io.StringIO()
+        figure_of(result).savefig(text, format="svg")
+    except (ImportError, TrueAxisError):
+        return ""
+    svg = text.getvalue()
+    return svg[svg.index("<svg"):]

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The result of a function: one class for all, made of the JSON that the command writes."""
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from . import _plot
+from ._errors import ended
+from ._streams import Stream
+from ._values import Node, frozen, quantities
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure
+
+    from . import _core
+
+
+class _Files(Mapping[str, str]):
+    """Texts that are made when they are asked for."""
+
+    def __init__(self, outcome: _core.Outcome) -> None:
+        self._outcome = outcome
+
+    def __getitem__(self, name: str) -> str:
+        if name not in self._outcome.files:
+            raise KeyError(name)
+        return self._outcome.file(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._outcome.files)
+
+    def __len__(self) -> int:
+        return len(self._outcome.files)
+
+
+class Result:
+    """What was found. It does not change.
+
+    Every key of the command's JSON is an attribute. A fit's parameters are attributes themselves:
+    ``fit.half_angle.value``, ``.u``, ``.U``, ``.unit``. Arrays have their unit in their name
+    (``fit.residual_mm``). ``print(result)`` shows the command's screen.
+
+    Attributes
+    ----------
+    files : Mapping of str to str
+        Text of each file that the command would write, by its name: ``report.html``, ``table.csv``.
+    stream : Stream or None
+        The readings.
+    """
+
+    __slots__ = ("_make", "_screen", "_outcome", "_json", "_tree", "files", "stream")
+
+    files: Mapping[str, str]
+    stream: Stream | None
+    _outcome: _core.Outcome | None
+    _json: str | None
+    _tree: Node | None
+
+    def __init__(self, make: Callable[[], str], screen: Callable[[], str], stream: Stream | None = None,
+                 outcome: _core.Outcome | None = None, files: Mapping[str, str] = MappingProxyType({})) -> None:
+        for name, value in (("_make", make), ("_screen", screen), ("_outcome", outcome), ("_json", None),
+                            ("_tree", None), ("files", files if outcome is None else _Files(outcome)),
+                            ("stream", stream)):
+            object.__setattr__(self, name, value)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError("a result does not change")
+
+    def to_json(self) -> str:
+        """Returns the text that the command writes with ``--json``."""
+        if self._json is None:
+            object.__setattr__(self, "_json", self._make())
+        return str(self._json)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Returns the same as a new dictionary, which may be changed."""
+        return dict(json.loads(self.to_json()))
+
+    def _all(self) -> Node:
+        if self._tree is None:
+            object.__setattr__(self, "_tree", frozen(self.to_dict()))
+        assert self._tree is not None
+        return self._tree
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        if self._outcome is not None and name in self._outcome.arrays:
+            return self._outcome.array(name)
+        tree = self._all()
+        for part in (tree, *self._parts()):
+            if name in part:
+                return part[name]
+        raise AttributeError(f"{name}; there is {', '.join(self._names())}")
+
+    def _parts(self) -> list[Node]:
+        """Those whose names are attributes of the result too."""
+        tree = self._all()
+        return [tree[name] for name in ("parameters", "derived") if name in tree and isinstance(tree[name], Node)]
+
+    def _names(self) -> list[str]:
+        arrays = [] if self._outcome is None else self._outcome.arrays
+        return [*self._all(), *(name for part in self._parts() for name in part), *arrays]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._names()]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns every quantity as a row: value, u, U, unit, why; by its dotted name."""
+        import pandas
+
+        rows = {name: (one.value, one.u, one.U, one.unit, one.why) for name, one in quantities(self._all())}
+        return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "u", "U", "unit", "why"])
+
+    def plot(self) -> Figure:
+        """Draws the result with matplotlib.
+
+        A fit shows its residuals over C and Z, its polar roundness and its axis with U; a diagnosis
+        the spectrum before and after as well; a form, a separation and a correction their curves.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        return _plot.figure_of(self)
+
+    def __str__(self) -> str:
+        return str(self._screen())
+
+    def __repr__(self) -> str:
+        lines = str(self).splitlines()
+        return f"<{self.schema}: {lines[0] if lines else ''}>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(str(self))}</pre>" + _plot.svg_of(self)
+
+
+def result_of(outcome: _core.Outcome, stream: Stream | None = None) -> Result:
+    """Returns the result of an outcome, or raises what the command ends with."""
+    result = Result(outcome.json, outcome.screen, stream, outcome)
+    if outcome.code != 0:
+        raise ended(outcome.code, outcome.why, result)
+    return result

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Streams of probe readings, from arrays or from files."""
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import InputError
+from ._values import Floats
+
+if TYPE_CHECKING:
+    import pandas
+
+Stream = _core.Stream
+Path = Union[str, "os.PathLike[str]"]
+Readings = Union[Stream, Path, "npt.ArrayLike", Mapping[str, "npt.ArrayLike"]]
+
+_SAY_X = ('say what x is: x_unit="mm radius" or "mm diameter" (um, m and in too), '
+          'c_unit="deg", "rad" or "rev", z_unit="mm"')
+
+
+def _x_header(name: str, x_unit: str) -> str:
+    unit, _, kind = x_unit.partition(" ")
+    if kind not in ("radius", "diameter"):
+        raise InputError(f"x_unit {x_unit!r}: {_SAY_X}")
+    return f"{name}[{unit} dia]" if kind == "diameter" else f"{name}[{unit}]"
+
+
+def _named_columns(x: npt.ArrayLike, c: npt.ArrayLike | None, z: npt.ArrayLike | None, t_s: npt.ArrayLike | None,
+                   x_unit: str | None, c_unit: str | None, z_unit: str | None,
+                   several: bool) -> dict[str, npt.ArrayLike]:
+    if x_unit is None or c is None or c_unit is None or (z is not None and z_unit is None):
+        raise InputError(_SAY_X)
+    if several:
+        sensors = np.asarray(x, dtype=np.float64)
+        if sensors.ndim != 2:
+            raise InputError("x: an array of shape (n, sensors) goes with sensor_angles_deg")
+        columns: dict[str, npt.ArrayLike] = {
+            _x_header(f"X_M{i + 1}", x_unit): sensors[:, i] for i in range(sensors.shape[1])}
+    else:
+        columns = {_x_header("X_M", x_unit): x}
+    columns[f"C[{c_unit}]"] = c
+    if z is not None:
+        columns[f"Z[{z_unit}]"] = z
+    if t_s is not None:
+        columns["t[s]"] = t_s
+    return columns
+
+
+def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | None = None,
+           z: npt.ArrayLike | None = None, *, x_unit: str | None = None, c_unit: str | None = None,
+           z_unit: str | None = None, t_s: npt.ArrayLike | None = None, relative: bool = False,
+           nominal_radius_mm: float | None = None, sensor_angles_deg: Sequence[float] = (),
+           metadata: Mapping[str, object] | None = None, drop_invalid: bool = False,
+           source: str = "arrays") -> Stream:
+    """Makes a stream of arrays. They are copied once; fits of the stream copy nothing.
+
+    Parameters
+    ----------
+    x : array_like, shape (n,) or (n, sensors), or Mapping
+        Position of the contact. A mapping (a DataFrame too) holds all columns by the names of a
+        stream's header: ``{"X_M[mm dia]": ..., "C[deg]": ..., "Z[mm]": ...}``, of a face
+        ``{"Z_M[mm]", "C[deg]", "X[mm]"}``.
+    c : array_like, shape (n,)
+        Spindle angle, wrapped or running.
+    z : array_like, shape (n,), optional
+        Position along the spindle; without it the stream is one section.
+    x_unit : str
+        "mm radius", "mm diameter", or the same of "um", "m", "in". There is no default.
+    c_unit : str
+        "deg", "rad", "mrad" or "rev". There is no default.
+    z_unit : str
+        "mm", "um", "m" or "in"; needed if ``z`` is given.
+    t_s : array_like, shape (n,), optional
+        Time in s.
+    relative : bool
+        The readings are those of a gauge; it needs ``nominal_radius_mm``.
+    nominal_radius_mm : float, optional
+        Nominal radius in mm.
+    sensor_angles_deg : sequence of float
+        Of several sensors, from +X towards +Y, in degrees.
+    metadata : Mapping, optional
+        Further keys of a stream: ``{"sensor_noise": "2 um", "spindle_rpm": 60}``.
+    drop_invalid : bool
+        Leave out rows that are NaN.
+
+    Returns
+    -------
+    Stream
+        With the read-only arrays ``reading_mm`` (a radius), ``c_rad`` (running), ``position_mm``,
+        ``time_s``, shape (n,) each.
+
+    Raises
+    ------
+    InputError
+        If a unit is not said, a length differs, or a reading is not finite.
+    """
+    if isinstance(x, (Stream, str)):
+        raise InputError("x is not an array: give a stream or a path to the function itself, or read() it")
+    several = len(sensor_angles_deg) > 0
+    if isinstance(x, Mapping) or hasattr(x, "columns"):
+        named: Any = x
+        if x_unit is not None or c is not None:
+            raise InputError("the names of the columns say their units: leave c, z and the units out")
+        names = [str(name) for name in (named if isinstance(x, Mapping) else named.columns)]
+        columns = {name: named[name] for name in names}
+        is_face = any(name.lstrip().startswith("Z_M") for name in names)
+    else:
+        columns = _named_columns(x, c, z, t_s, x_unit, c_unit, z_unit, several)
+        is_face = False
+    numbers = [np.ascontiguousarray(column, dtype=np.float64) for column in columns.values()]
+    sizes = [one.shape for one in numbers]
+    if any(one.ndim != 1 for one in numbers) or len(set(sizes)) != 1:
+        given = ", ".join(f"{name} {size}" for name, size in zip(columns, sizes))
+        raise InputError(f"columns must be one-dimensional and of equal length, but are {given}")
+    radius = x_unit is not None and x_unit.endswith("radius")
+    said = "".join(f"# {key}: {value}\n" for key, value in (metadata or {}).items())
+    made = _core.stream_of(said + ",".join(columns) + "\n", numbers, source, False if radius else None, relative,
+                           nominal_radius_mm, drop_invalid, list(sensor_angles_deg))
+    if not made.x_said and not is_face and x_unit is None:
+        raise InputError(f"say what X_M is: name the column X_M[mm dia], or metadata={{'x_convention': 'radius'}}")
+    return made
+
+
+def read(path: Path, *, x: str | None = None, relative: bool = False, nominal_radius_mm: float | None = None,
+         columns: str = "", skip: int = 0, z_from_mm: float | None = None, z_to_mm: float | None = None,
+         drop_invalid: bool = False, sensor_angles_deg: Sequence[float] = ()) -> Stream:
+    """Reads a stream (CSV) or another program's recording, as the command does.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+    x : str, optional
+        "radius" or "diameter", if the file does not say it.
+    relative, nominal_radius_mm, drop_invalid, sensor_angles_deg
+        As in :func:`stream`.
+    columns : str
+        Columns of another program's file, as ``"X=Diameter,C=Angle(°),Z=3[mm]"``.
+    skip : int
+        Lines above the table.
+    z_from_mm, z_to_mm : float, optional
+        Range of Z to use, mm.
+    """
+    if x not in (None, "radius", "diameter"):
+        raise InputError(f'x {x!r}: write "radius" or "diameter"')
+    return _core.read_stream(os.fspath(path), columns, skip, z_from_mm, z_to_mm,
+                             None if x is None else x == "diameter", relative, nominal_radius_mm, drop_invalid,
+                             list(sensor_angles_deg))
+
+
+def taken(readings: Any, c: Any, z: Any, units: dict[str, Any]) -> Stream:
+    """Returns the stream that a function was given, whatever it was given as."""
+    if isinstance(readings, Stream):
+        if c is not None or z is not None or units:
+            raise InputError("a stream has its units: leave c, z and the units out")
+        return readings
+    if isinstance(readings, (str, os.PathLike)):
+        return read(readings, **units)
+    return stream(readings, c, z, **units)
+
+
+def to_pandas(one: Stream) -> pandas.DataFrame:
+    """Returns the readings as a DataFrame with units in the names of its columns."""
+    import pandas
+
+    across = "x_mm" if one.is_face else "z_mm"
+    columns: dict[str, Floats] = {"z_mm" if one.is_face else "x_mm": one.reading_mm, "c_rad": one.c_rad}
+    for name, values in ((across, one.position_mm), ("t_s", one.time_s)):
+        if len(values):
+            columns[name] = values
+    return pandas.DataFrame(columns)

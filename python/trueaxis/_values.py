@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Values of a result: what the JSON of the command says, as immutable objects."""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A value with its uncertainty and unit.
+
+    Attributes
+    ----------
+    value : float
+        NaN if the readings do not determine it; ``why`` then says why not.
+    u : float
+        Standard uncertainty (k = 1) in the same unit, NaN if there is none.
+    unit : str
+        "mm", "deg", "s", "1" ...
+    k : float
+        Coverage factor of ``U``.
+    why : str
+        Why a number is missing; empty if none is.
+    interval : tuple of float or None
+        Ends of the coverage interval if value ± U is not one (the apex of a cone).
+    """
+
+    value: float
+    u: float = math.nan
+    unit: str = "1"
+    k: float = 2.0
+    why: str = ""
+    interval: tuple[float, float] | None = None
+
+    @property
+    def U(self) -> float:
+        """Expanded uncertainty U = k u; of an interval its larger side."""
+        if self.interval is not None:
+            return max(self.value - self.interval[0], self.interval[1] - self.value)
+        return self.k * self.u
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __str__(self) -> str:
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        if math.isnan(self.value):
+            return "not determined" + (f" ({self.why})" if self.why else "")
+        if not self.U > 0.0:
+            return f"{self.value:.6g}{unit}"
+        decimals = min(max(1 - math.floor(math.log10(self.U)), 0), 12)  # two digits of U (GUM 7.2.6)
+        return f"{self.value:.{decimals}f} ± {self.U:.{decimals}f}{unit}"
+
+
+@dataclass(frozen=True)
+class Covariance:
+    """A covariance matrix with the names of its rows.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Name of row and column i.
+    matrix : ndarray, shape (n, n)
+        Entries in the product of the units of both names; read-only.
+    """
+
+    names: tuple[str, ...]
+    matrix: Floats
+
+    def between(self, first: str, second: str) -> float:
+        """Returns the covariance of two quantities by name."""
+        return float(self.matrix[self.names.index(first), self.names.index(second)])
+
+    def correlation(self) -> Floats:
+        """Returns the matrix of correlations, shape (n, n)."""
+        sd = np.sqrt(np.diag(self.matrix))
+        return np.asarray(self.matrix / np.outer(sd, sd), dtype=np.float64)
+
+
+class Node:
+    """A part of a result: ``node.name`` and ``node["name"]`` are the same; ``list(node)`` are its names."""
+
+    __slots__ = ("_items",)
+    _items: dict[str, Any]
+
+    def __init__(self, items: dict[str, Any]) -> None:
+        object.__setattr__(self, "_items", items)
+
+    def __getitem__(self, name: str) -> Any:
+        return self._items[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._items
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        try:
+            return self._items[name]
+        except KeyError:
+            raise AttributeError(f"{name}; there is {', '.join(self._items)}") from None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError("a result does not change")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._items]
+
+    def __repr__(self) -> str:
+        return "{" + ", ".join(f"{name}: {value}" for name, value in self._items.items()) + "}"
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else float(value)
+
+
+def frozen(json: Any, k: float = 2.0) -> Any:
+    """Returns JSON as immutable objects: quantities, covariances, nodes and tuples."""
+    if isinstance(json, list):
+        return tuple(frozen(item, k) for item in json)
+    if not isinstance(json, dict):
+        return json
+    k = float(json.get("coverage_factor", k))
+    if "value" in json and "unit" in json:
+        ends = json.get("interval")
+        return Quantity(_number(json["value"]), _number(json.get("u")), json["unit"], k,
+                        json.get("why", ""), None if ends is None else (float(ends[0]), float(ends[1])))
+    if json.keys() == {"order", "matrix"}:
+        matrix = np.array([[_number(value) for value in row] for row in json["matrix"]], dtype=np.float64)
+        matrix.flags.writeable = False
+        return Covariance(tuple(json["order"]), matrix)
+    return Node({name: frozen(value, k) for name, value in json.items()})
+
+
+def quantities(tree: Any, name: str = "") -> Iterator[tuple[str, Quantity]]:
+    """Yields every quantity of a result with its dotted name."""
+    if isinstance(tree, Quantity):
+        yield name, tree
+    elif isinstance(tree, Node):
+        for key in tree:
+            yield from quantities(tree[key], f"{name}.{key}" if name else key)
+    elif isinstance(tree, tuple):
+        for i, value in enumerate(tree):
+            yield from quantities(value, f"{name}.{i}")

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/stop.hpp"
+
+namespace trueaxis {
+namespace {
+
+thread_local const std::atomic<bool>* asked_of_this_thread = nullptr;
+
+}  // namespace
+
+Stoppable::Stoppable(const std::atomic<bool>* asked) : before_(asked_of_this_thread) {
+  asked_of_this_thread = asked;
+}
+
+Stoppable::~Stoppable() { asked_of_this_thread = before_; }
+
+const std::atomic<bool>* stopped_by() { return asked_of_this_thread; }
+
+void stop_if_asked() {
+  if (asked_of_this_thread != nullptr && asked_of_this_thread->load(std::memory_order_relaxed))
+    throw Stopped{};
+}
+
+}  // namespace trueaxis
