@@ -8,7 +8,7 @@ set_target_properties(trueaxis_python PROPERTIES OUTPUT_NAME _core
 
 # The package of this build, for tests and for PYTHONPATH: its Python files are links into the source.
 file(GLOB TRUEAXIS_PYTHON_FILES RELATIVE "${PROJECT_SOURCE_DIR}/python" CONFIGURE_DEPENDS
-  "${PROJECT_SOURCE_DIR}/python/trueaxis/*.py*")
+  "${PROJECT_SOURCE_DIR}/python/trueaxis/*.py" "${PROJECT_SOURCE_DIR}/python/trueaxis/*.pyi" "${PROJECT_SOURCE_DIR}/python/trueaxis/py.typed")
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/python/trueaxis")
 foreach(file IN LISTS TRUEAXIS_PYTHON_FILES)
   file(CREATE_LINK "${PROJECT_SOURCE_DIR}/python/${file}" "${PROJECT_BINARY_DIR}/python/${file}" SYMBOLIC)

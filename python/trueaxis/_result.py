@@ -130,7 +130,7 @@ class Result:
         return _plot.figure_of(self)
 
     def __str__(self) -> str:
-        return str(self._screen())
+        return str(self._screen()).rstrip("\n")
 
     def __repr__(self) -> str:
         lines = str(self).splitlines()

@@ -88,6 +88,8 @@ def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | No
         Further keys of a stream: ``{"sensor_noise": "2 um", "spindle_rpm": 60}``.
     drop_invalid : bool
         Leave out rows that are NaN.
+    source : str
+        Name of the readings in messages and results.
 
     Returns
     -------

@@ -9,6 +9,7 @@
 #include <boost/random/uniform_01.hpp>
 #include <cmath>
 
+#include "base/stop.hpp"
 #include "form/surface_order.hpp"
 #include "math/linear_algebra.hpp"
 
@@ -234,6 +235,7 @@ SurfacePosterior sample_surface(const SurfaceTerms& terms, SurfaceSums sums,
   out.coefficients.resize(terms.size(), options.draws);
   out.order_is_there = VectorXd::Zero(terms.orders + 1);
   for (int draw = 0; draw < options.draws; ++draw) {
+    stop_if_asked();
     chain.sweep(draw);
     out.coefficients.col(draw) = chain.draw();
     out.noise_mm.push_back(chain.noise_mm());
