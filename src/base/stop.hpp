@@ -5,8 +5,8 @@
 
 namespace trueaxis {
 
-/// Thrown by work that nobody waits for any longer. It is no std::exception: what turns those into
-/// results leaves it alone.
+/// Thrown by work that nobody waits for any longer. It is not a std::exception: what turns those
+/// into results leaves it alone.
 struct Stopped {};
 
 /// While it lives, work of this thread, and of the threads that for_each_index starts for it, ends
