@@ -143,7 +143,7 @@ struct Diagnosis : Conclusion {
 
   /// As in the options, which outlive this, or `entries`.
   std::span<const Effect> own_effects = {};
-  /// Where something is stated: those of the options, and entries of the catalogue as it is stated.
+  /// If something is stated: those of the options, and entries of the catalogue as it is stated.
   std::shared_ptr<const std::vector<Effect>> entries = {};
 
   /// The entry of an id, of the catalogue or of one's own; nullptr: none has it.

@@ -176,7 +176,7 @@ class Search {
     return linear::least_squares(kkt, right).head(p);
   }
 
-  /// Where fewer points hold the element than it has motions, h is flat about its optimum and goes
+  /// If fewer points hold the element than it has motions, h is flat about its optimum and goes
   /// no lower long before the place has all its digits: Newton's step goes by the balance.
   void polish(Minimax& out) {
     double last = 1e-5 * cloud_.length;

@@ -112,7 +112,7 @@ class NewProgram {
         pieces.push_back({static_cast<std::uint32_t>(i), true, words});
     take(after, deviation_mm, line);
     if (!is_worse(deviation_mm, std::max(before_mm, end.before_mm))) return;
-    // Where the block's own way leaves the line further than the errors do, on a machine without
+    // If the block's own way leaves the line further than the errors do, on a machine without
     // errors too, it is the program's and not the compensation's.
     if (path.deviation_nominal_mm() > std::max(ends_[i - 1].before_mm, end.before_mm)) return;
     before_mm = std::max(path.deviation_before_mm(0.0), end.before_mm);

@@ -22,8 +22,8 @@ Sample sample_of(const PreparedStream& stream);
 /// A sample of each part of a model.
 std::vector<Sample> samples_of(const JointModel& model);
 
-/// The algebraic start; for a robust loss refitted on the readings near it. Where a probe line
-/// misses it, the level start (Eq. 24).
+/// The algebraic start; for a robust loss refitted on the readings near it. If a probe line misses
+/// it, the level start (Eq. 24).
 std::vector<double> find_start(const JointModel& model, const std::vector<Sample>& samples,
                                Loss loss);
 
@@ -34,8 +34,8 @@ struct Minima {
 };
 
 /// Minimises from `start`; where that fails, or a mirrored tilt may do as well, also from the level
-/// start and from the minimum's tilt reversed, one clamping after the other (Eq. 25). Where there
-/// are at most two readings more than parameters, also from tilts all around.
+/// start and from the minimum's tilt reversed, one clamping after the other (Eq. 25). If there are
+/// at most two readings more than parameters, also from tilts all around.
 Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& samples,
                       const std::vector<double>& start, const LossScale& loss, int max_iterations);
 

@@ -77,8 +77,8 @@ struct Solution {
 bool direction_met(const Left& left) { return left.direction.norm() <= exact_direction; }
 
 /// Newton's method with a Jacobian that is kept as long as it serves: the errors turn it by some
-/// 1e-4, so that each step removes four digits of the rest. Where a direction is left it is
-/// the Jacobian that says where it is least, and only a fresh one is right.
+/// 1e-4, so that each step removes four digits of the rest. If a direction is left, the Jacobian
+/// says where it is least, and only a fresh one is right.
 Solution solve(const Problem& problem) {
   const Compiled& machine = problem.machine;
   const ToolMotion motion = problem.motion(problem.held.change);

@@ -46,7 +46,7 @@ struct LinearProblem {
   Vector3d left;
 };
 
-/// Where two linear axes leave the tip off their plane, an axis that is free may put it there: the
+/// If two linear axes leave the tip off their plane, an axis that is free may put it there: the
 /// zeros of the distance over one turn.
 std::vector<double> free_positions(const Compiled& machine, const Vector3d& tip,
                                    const RotarySolution& solution, const Setting& setting) {

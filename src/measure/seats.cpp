@@ -137,7 +137,7 @@ std::vector<SeatBreak> breaks_of(const SeatProfile& profile, const Stretches& fo
   return out;
 }
 
-/// Where two seats meet without a jump, the readings about the corner follow both: half a turn of
+/// If two seats meet without a jump, the readings about the corner follow both: half a turn of
 /// them is of neither, and no reading is of two seats.
 void part_at(const SeatBreak& here, double margin_mm, Seat& before, Seat& after) {
   if (here.kind != SeatBreak::Kind::slope && before.z.to_mm < after.z.from_mm) return;

@@ -65,7 +65,7 @@ class Writer {
     return false;
   }
 
-  /// The moves of a canned cycle as G0 and G1: the block itself becomes the first of them. Where no
+  /// The moves of a canned cycle as G0 and G1: the block itself becomes the first of them. If no
   /// cycle of the program changes, all stay.
   void write_cycle(const Line& line, std::span<const NewPosition> positions) {
     const Move& move = program_.moves[positions.front().move];

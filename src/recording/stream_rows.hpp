@@ -23,10 +23,10 @@ struct StreamRows {
   CsvInvalidRows invalid;          ///< without a value in a chosen column
 };
 
-/// `diagnostics` gets what is not a number, one place and a count of each kind. Where there is a
+/// `diagnostics` gets what is not a number, one place and a count of each kind. If there is a
 /// column Y, (X, Y) at C is a point: the reading is its distance from the spindle axis, signed as
-/// X, at the angle C + arctan(Y/X), which is the same point of the part.
-/// With `drop_invalid` rows without a value are not mistakes.
+/// X, at the angle C + arctan(Y/X), which is the same point of the part. With `drop_invalid` rows
+/// without a value are not mistakes.
 StreamRows stream_rows(const Recording& recording, const RecordedText& text,
                        std::vector<TakenColumn> taken, bool diameter, bool drop_invalid,
                        CsvDiagnostics& diagnostics);

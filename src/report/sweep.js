@@ -64,7 +64,7 @@ function chartSections(view) {
   const shares = (options) => view.all.slice(0, drawn.length).map((curve) => shareChart(data, view, curve, options)).filter(Boolean);
   const efficiency = shares({keys: ['ratio_low', 'ratio', 'ratio_high'], factor: 1, reference: 1, name: 'RMSE / bound', words: 'RMSE over the bound with its 95 % interval.'});
   const coverage = shares({keys: ['coverage_low', 'coverage', 'coverage_high'], factor: 100, reference: 95.45, name: '%', words: 'Share of the repeats with |error| ≤ U (k = 2), 95 % interval; dashed: 95.45 %.'});
-  const said = {found: 'Found: the diagnosis reports anything at all. Where nothing is hidden, these are false alarms.', named: 'Named: every hidden effect is among the causes listed for a deviation.'};
+  const said = {found: 'Found: the diagnosis reports anything at all. If nothing is hidden, these are false alarms.', named: 'Named: every hidden effect is among the causes listed for a deviation.'};
   const detection = view.panels.flatMap((panel) => Object.keys(said).map((key) => detectionChart(data, panel, key, said[key]))).filter(Boolean);
   return [detection.length ? section('detection', 'What the diagnosis finds', row(detection)) : null,
     section('error', 'Error and bound', note, ...[each(errorChart)].flat()),

@@ -22,8 +22,8 @@ double root_between(const F& f, double low, double f_low, double high, double f_
   return 0.5 * (a + b);
 }
 
-/// Fast path: two secant steps from `guess`, then a bracket around them that grows. Where f is
-/// convex a change from − to + is the outer root, wherever it was found.
+/// Fast path: two secant steps from `guess`, then a bracket around them that grows. If f is convex,
+/// a change from − to + is the outer root, wherever it was found.
 template <class F>
 std::optional<double> root_near(const F& f, double guess) {
   double x0 = guess, f0 = f(x0);

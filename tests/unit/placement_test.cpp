@@ -175,7 +175,7 @@ TEST_F(OwnRun, ALostLevelIsFoundAgain) {
   EXPECT_NEAR(level.best, 0.010 * std::sqrt(alone[0] / 6.0), 1e-5) << "the run's own scatter";
   EXPECT_LT(level.interval_95.low, level.best);
   EXPECT_GT(level.interval_95.high, level.best);
-  // Where the factor is fitted as well, three runs of six numbers say less than a known factor.
+  // If the factor is fitted too, three runs of six numbers say less than a known factor.
   const UnknownLevel& fitted = placement.unknown[1];
   EXPECT_GT(fitted.interval_95.high / fitted.interval_95.low,
             level.interval_95.high / level.interval_95.low);

@@ -73,7 +73,7 @@ TEST(Summary, IsThatOfTheErrorsByHand) {
   EXPECT_EQ(summary.cells[0].readings, 77U);
 }
 
-// Where numbers are drawn: half the errors 1, half 3, so mean(e²) = 5 and mean(e⁴) = 41.
+// If numbers are drawn: half the errors 1, half 3, so mean(e²) = 5 and mean(e⁴) = 41.
 TEST(Summary, IntervalOfDrawnNumbersIsThatOfTheDeltaMethodByHand) {
   Example example;
   example.sweep.drawn = {{"x0", "part.x0_mm", Drawn::Kind::uniform, 0.0, 1.0}};

@@ -13,7 +13,7 @@ namespace trueaxis::machine_job {
 using Displacements = std::vector<Eigen::Vector3d>;
 
 /// The displacement of a rigid body that is nearest to the displacements of its points, by least
-/// squares (Eq. 220). Where the points do not show a turn (one point, a line), there is none.
+/// squares (Eq. 220). If the points do not show a turn (one point, a line), there is none.
 class RigidFit {
  public:
   explicit RigidFit(std::span<const Eigen::Vector3d> points_mm);

@@ -138,8 +138,8 @@ LargestInProgram largest_U(const MatrixXd& tips, const Covariance& covariance,
   return out;
 }
 
-/// Where no plan lowers U, as what it is largest of no plan shows: the plan that shows most a
-/// minute of what could hide on this program and does a tenth of U there.
+/// If no plan lowers U, because no plan shows its largest part: the plan that shows most per minute
+/// of what could hide on this program and does a tenth of U there.
 std::string plan_of_hidden(const ProgramHarm& harm, const MachineDiagnosis& diagnosis) {
   std::string code;
   double best = 0.0;

@@ -17,7 +17,8 @@ struct ControlMove {
   std::size_t line = 0;
   bool rapid = false;
   bool leaves = false;  ///< G28 G30 G53: away from the part, to where the machine's own zero says
-  /// Where it begins no block of the program said: at its start, after `leaves` and a tool change.
+  /// If no block of the program said where it begins: at its start, after `leaves` and a tool
+  /// change.
   bool begins_anew = false;
   bool along_tip = false;  ///< the tip goes evenly (mode tip), else every axis does
   AxisPositions from{}, to{};

@@ -251,7 +251,7 @@ bool look_for_nearest(const PlanningTask& task, const PlanSearch& search, Planni
   } else {
     search.skip(lengths_looked_at(task));
   }
-  // Where the ranges leave out what is given, that with one of them may be nearer.
+  // If the ranges do not contain what is given, that with one of them may be nearer.
   const auto nearer = [&](const PlannedMeasurement& plan) {
     if (search.allowed(plan) &&
         !(search.allowed(out.nearest) && out.nearest.u_expanded_mm <= plan.u_expanded_mm))

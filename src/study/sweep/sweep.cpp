@@ -92,7 +92,7 @@ Scenario scenario_of(const Sweep& sweep, std::size_t cell) {
   return scenario;
 }
 
-// Where nothing is drawn the instants of a jittered pass are those of repeat 0: the clean stream is
+// If nothing is drawn, the instants of a jittered pass are those of repeat 0: the clean stream is
 // then one for the whole cell, and only the noise differs.
 Scenario scenario_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) {
   if (sweep.drawn.empty()) return scenario_of(sweep, cell);

@@ -23,7 +23,7 @@ struct ScenarioMachine {
   std::vector<std::string> read;
 };
 
-/// Reads the table `[machine]`. Where it names no machine, nothing that follows can be read: the
+/// Reads the table `[machine]`. If it names no machine, nothing that follows can be read: the
 /// document is finished without looking into `rest`.
 /// @throws InputError
 ScenarioMachine read_scenario_machine(TomlTable table, TomlTable rest, TomlDocument& document);
