@@ -50,12 +50,15 @@ std::string line_of(std::string_view name, const Row& r) {
 
 constexpr std::string_view head = R"(# The risk of a GO
 
-The virtual lathe draws jobs whose truth is sealed, `run_job` decides, and the cut axis is held against the drawn one:
-R 10–80 mm, cylinders and cones of 2–20°, 20–60 mm probed in one pass at 18–40 readings a turn, σ 0.5–2 µm, the cut 2–25 mm
-beside the probed length. A GO at the edge is one whose tolerance is just what it says the coaxiality is at most; out of it is
-where the part that is cut exceeds that. ISO 14253-1 allows 5 %. Far from the edge is three times that tolerance.
-Waves that keep step with the eccentricity, less than one beat over the stream, are the axis itself to a single pass: no data
-show them, and they are not drawn.
+This page shows how often a GO is wrong, on simulated jobs. The virtual lathe draws jobs whose truth is sealed, `run_job`
+decides, and the study compares the cut axis with the drawn one. Parts are cylinders and cones of 2–20°, R 10–80 mm, of
+which 20–60 mm are probed in one pass at 18–40 readings per revolution, σ 0.5–2 µm. The cut is 2–25 mm away from the
+probed length.
+
+A GO at the edge has exactly the tolerance that the job states as the largest coaxiality; the part is out if its cut
+exceeds that. ISO 14253-1 allows 5 %. Far from the edge is three times that tolerance. Waves that keep step with the
+eccentricity, less than one beat over the stream, look like the axis in a single pass. No data show them, and the study
+does not draw them.
 
 | | jobs | GO | out at the edge | % (95 % interval) | out far from it | with reservations, out | NOT PROVEN | NO-GO |
 |---|---|---|---|---|---|---|---|---|
@@ -98,7 +101,7 @@ int main(int argc, char** argv) {
   }
   table += line_of("all", all);
   table += fmt::format(
-      "\nMade by `scripts/go_risk_study --cases {} --seed {}`, which writes a line a job to "
+      "\nMade by `scripts/go_risk_study --cases {} --seed {}`, which writes a line per job to "
       "build/go_risk.csv.\n",
       cases, seed);
   if (!page.empty()) std::ofstream(page) << table;
