@@ -42,12 +42,20 @@ struct Fitted {
   FitResult result;
 };
 
-Outcome fit_of(const Stream& stream, const Association& association, const py::object& progress) {
+/// @param checked as the command does it: whether the readings are those of one surface, whose part
+/// did not move; else the library's fit alone
+FitResult fit_as_asked(const ProbeStream& stream, const FitOptions& options, bool checked) {
+  expect_one_sensor(stream);
+  if (!checked) return fit(stream, options);
+  expect_one_surface(stream, options.surface, RangesAs::options);
+  return cli::checked_fit(stream, options);
+}
+
+Outcome fit_of(const Stream& stream, const Association& association, bool checked,
+               const py::object& progress) {
   const auto work = [&] {
     auto found = std::make_shared<Fitted>(Fitted{stream, association.chosen(), {}});
-    expect_one_sensor(*stream);
-    expect_one_surface(*stream, found->options.surface, RangesAs::options);
-    found->result = cli::checked_fit(*stream, found->options);
+    found->result = fit_as_asked(*stream, found->options, checked);
     cli::expect_enough_readings(found->result);
     return std::shared_ptr<const Fitted>(found);
   };
@@ -65,17 +73,17 @@ Outcome fit_of(const Stream& stream, const Association& association, const py::o
 }
 
 /// Seconds that a fit takes in C++, of a stream or from its arrays: scripts/bench_python compares.
-double seconds_per_fit(const Stream& stream, const Association& association, int repeats,
-                       bool from_arrays) {
+double seconds_per_fit(const Stream& stream, const Association& association, bool checked,
+                       int repeats, bool from_arrays) {
   using Clock = std::chrono::steady_clock;
   const FitOptions options = association.chosen();
   const auto begun = Clock::now();
   for (int i = 0; i < repeats; ++i) {
     if (from_arrays) {
       const ProbeStream copy = *stream;
-      cli::checked_fit(copy, options);
+      fit_as_asked(copy, options, checked);
     } else {
-      cli::checked_fit(*stream, options);
+      fit_as_asked(*stream, options, checked);
     }
   }
   return std::chrono::duration<double>(Clock::now() - begun).count() / repeats;

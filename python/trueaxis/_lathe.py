@@ -30,7 +30,7 @@ def _association(surface: str, loss: str, bore: bool, ball_radius_mm: float, noi
 
 def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | None = None, *, surface: str,
         loss: str = "plain", bore: bool = False, ball_radius_mm: float = 0.0, noise_um: float | None = None,
-        coverage_factor: float = 2.0, progress: Progress = None, **units: Any) -> Result:
+        coverage_factor: float = 2.0, checked: bool = True, progress: Progress = None, **units: Any) -> Result:
     """Fits a reference surface to readings: no starting values, uncertainties included.
 
     Parameters
@@ -51,6 +51,9 @@ def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | N
         Standard deviation of one reading in µm; otherwise the readings show it.
     coverage_factor : float
         k of U = k u.
+    checked : bool
+        Look first, as the command does, whether the readings are those of one surface whose part did
+        not move. This takes longer than the fit itself; leave it out for simulated readings only.
     progress : callable, optional
         Called with the seconds since the beginning; what it raises ends the work.
     **units
@@ -75,7 +78,7 @@ def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | N
     stream = taken(readings, c, z, units)
     association = _association(surface, loss, bore, ball_radius_mm, noise_um, {}, coverage_factor)
     with Shown("fit", progress) as shown:
-        return result_of(_core.fit(stream, association, shown), stream)
+        return result_of(_core.fit(stream, association, checked, shown), stream)
 
 
 def diagnose(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | None = None, *, surface: str,
