@@ -154,3 +154,34 @@ def test_a_simulation_knows_its_truth():
     assert abs(left.std() / 1e-3 - 1.0) < 5.0 / np.sqrt(2 * len(left))
     fit = ta.fit(made.stream, surface="cylinder")
     assert abs(fit.x0.value - 0.05) < 4.5 * fit.x0.u
+
+
+@pytest.mark.parametrize("job", ["shaft", "blade"])
+def test_a_job_is_the_command_s(job, tmp_path):
+    os.chdir(ROOT)
+    found = ta.run_job(f"data/jobs/{job}.toml")
+    command("run", f"data/jobs/{job}.toml", "-o", tmp_path / "run")
+    assert found.to_json() == (tmp_path / "run/result.json").read_text()
+    assert set(found.files) == {one.name for one in (tmp_path / "run").iterdir()}
+    assert found.files["report.html"] == (tmp_path / "run/report.html").read_text()
+    assert repr(found).startswith("<trueaxis.")
+
+
+def test_a_correction_is_that_of_a_job(tmp_path):
+    """The table of a diagnosis in memory, against the table of the command's job with the same reference and target."""
+    os.chdir(ROOT)
+    target = {"target": {"surface": "cylinder", "radius_mm": 24, "z_start_mm": 40, "z_end_mm": 10,
+                         "coaxiality_tolerance_um": 20, "stock_um": 8000},
+              "cut": {"speed_rpm": 600, "sense": "-c", "feed_mm_per_rev": 0.1, "nose_radius_mm": 0.4}}
+    job = {"reference": [{"name": "seat", "stream": STREAM, "surface": "cone"}], **target}
+    of_job = ta.run_job(job)
+    found = ta.correct(ta.diagnose(STREAM, surface="cone"), target)
+
+    def rows(text):
+        lines = [line for line in text.splitlines() if not line.startswith("#")]
+        return np.array([line.split(",") for line in lines[1:]], dtype=float)
+
+    expected, here = rows(of_job.files["table.csv"]), rows(found.files["table.csv"])
+    assert expected.shape == here.shape and len(here) == len(found.wanted_mm)
+    assert np.abs(expected - here).max() <= 1e-6  # the last printed digit of Z and C
+    assert found.plot().axes

@@ -135,7 +135,7 @@ def frozen(json: Any, k: float = 2.0) -> Any:
     if not isinstance(json, dict):
         return json
     k = float(json.get("coverage_factor", k))
-    if "value" in json and "unit" in json:
+    if "unit" in json and isinstance(json.get("value", ""), (int, float, type(None))):
         ends = json.get("interval")
         return Quantity(_number(json["value"]), _number(json.get("u")), json["unit"], k,
                         json.get("why", ""), None if ends is None else (float(ends[0]), float(ends[1])))
