@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iostream>
 #include <memory>
 
 #include "base/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
+#include "format/notes.hpp"
 #include "machine/files/positions_csv.hpp"
+#include "machine/limits.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::cli {
 namespace {
+
+constexpr double least_left_mm = 1e-5, least_left_rad = 1e-6;  // less is not worth a line
 
 struct AxesArguments {
   MachineOptions machine;
@@ -42,6 +49,41 @@ std::vector<std::vector<AxisPositions>> solve(const MachineModel& model,
   return solutions;
 }
 
+/// What the axes of the machine with its errors cannot put right, the largest of all solutions.
+struct Left {
+  double tip_mm = 0.0, direction_rad = 0.0;
+};
+
+/// Puts in the place of every solution of the nominal machine the axes at which the machine with
+/// its errors has the tool there.
+Left correct(const MachineModel& model, const Setting& setting,
+             std::vector<std::vector<AxisPositions>>& solutions) {
+  Left left;
+  std::string refused;
+  for (std::size_t point = 0; point < solutions.size(); ++point) {
+    for (AxisPositions& axes : solutions[point]) {
+      const CompensatedPosition to = compensate_exactly(model, axes, setting);
+      std::string why = outside_known(model.errors(), axes);
+      if (why.empty()) why = to.why;
+      if (!why.empty())
+        refused += fmt::format("{}point {}: {}", refused.empty() ? "" : "\n", point + 1, why);
+      left.tip_mm = std::max(left.tip_mm, to.tip_left_mm);
+      left.direction_rad = std::max(left.direction_rad, to.direction_left_rad);
+      axes = to.axes;
+    }
+  }
+  if (!refused.empty()) throw Refusal(refused);
+  return left;
+}
+
+/// A line if the axes cannot do all: with fewer than two rotary ones the direction.
+std::string left_text(const Left& left) {
+  if (left.tip_mm < least_left_mm && left.direction_rad < least_left_rad) return "";
+  return fmt::format(
+      "note   the axes cannot correct {:.2g} µm at the tip and {:.2g} mrad of the direction\n",
+      left.tip_mm / mm_per_um, 1e3 * left.direction_rad);
+}
+
 /// For each point its solutions, an axis in mm or deg by its letter.
 Json axes_json(const Machine& machine, const std::vector<std::vector<AxisPositions>>& solutions) {
   return list_of(solutions, [&](const std::vector<AxisPositions>& of_point) {
@@ -59,13 +101,17 @@ Json axes_json(const Machine& machine, const std::vector<std::vector<AxisPositio
 
 int execute(const AxesArguments& options) {
   const MachineFile file = options.machine.read_machine();
-  const MachineModel model(file.machine);
+  const ErrorsOfFiles given = options.machine.read_errors_of(file);
+  const MachineModel model(file.machine, given.errors);
   const Setting setting = options.machine.setting_of(file.machine);
   const auto targets = read_tool_targets_csv(options.targets);
-  const auto solutions = solve(model, targets, setting, options.all);
+  auto solutions = solve(model, targets, setting, options.all);
+  std::cerr << notes_screen(given.remarks);
+  if (!options.machine.errors.empty()) std::cerr << left_text(correct(model, setting, solutions));
+  std::vector<std::string> read = options.machine.errors;
+  read.insert(read.end(), {options.machine.machine, options.targets});
   return options.output.print_or_write(
-      "trueaxis.axes", axes_csv(file.machine, solutions), axes_json(file.machine, solutions),
-      {options.machine.machine, options.targets},
+      "trueaxis.axes", axes_csv(file.machine, solutions), axes_json(file.machine, solutions), read,
       "find the axis positions of " + counted(targets.size(), "point"));
 }
 
@@ -77,6 +123,7 @@ void add_inverse(CLI::App* command, int& exit_code) {
   command->add_option("points", options->targets, "tool positions and axes (CSV): x,y,z,i,j,k")
       ->required();
   command->add_flag("--all", options->all, "all solutions within the limits (default the nearest)");
+  options->machine.add_errors_to(*command);
   options->machine.add_work_offset_to(*command);
   options->output.add_to(*command, "trueaxis.axes");
   command->callback([options, &exit_code] { exit_code = execute(*options); });

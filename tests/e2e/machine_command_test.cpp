@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -89,6 +91,32 @@ TEST_F(MachineCommand, AxesGoBackFromPose) {
   EXPECT_EQ(far.exit_code, 1);
   EXPECT_TRUE(contains(far.err, "point 2: Y at")) << far.err;
   EXPECT_FALSE(there("far_axes.csv"));
+}
+
+// The machine with its errors, at the axes stated for it, has the tool where the nominal machine
+// has it: its own forward kinematics say so. Without the errors it would be off by tens of µm.
+TEST_F(MachineCommand, AxesOfAMachineWithErrorsPutItsToolAtThePoints) {
+  ASSERT_EQ(
+      command("machine pose --machine " + machine + data + "trunnion_ac_positions.csv -o cl.csv")
+          .exit_code,
+      0);
+  const auto wanted =
+      only_row("machine pose --machine " + machine + data + "trunnion_ac_positions.csv");
+  const CommandStreams done = command("machine inverse --machine " + machine + "cl.csv" + errors);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto rows = rows_of(done.out);
+  ASSERT_EQ(rows.size(), 1u);
+  file("to.csv",
+       fmt::format("X[mm],Y[mm],Z[mm],A[deg],C[deg]\n{:.12f},{:.12f},{:.12f},{:.12f},{:.12f}\n",
+                   rows[0][2], rows[0][3], rows[0][4], rows[0][5], rows[0][6]));
+  const auto there = only_row("machine pose --machine " + machine + "to.csv" + errors);
+  double nominal_off_mm = 0.0;
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(there[i], wanted[i], i < 3 ? 1e-9 : 1e-11) << i;
+  const auto uncorrected =
+      only_row("machine pose --machine " + machine + data + "trunnion_ac_positions.csv" + errors);
+  for (std::size_t i = 0; i < 3; ++i)
+    nominal_off_mm = std::max(nominal_off_mm, std::abs(uncorrected[i] - wanted[i]));
+  EXPECT_GT(nominal_off_mm, 5e-3);
 }
 
 TEST_F(MachineCommand, ErrorsAtAPosition) {

@@ -80,5 +80,19 @@ TEST(SensorDoubts, ASensorDoesNotBendByAQuarterOfItsRange) {
   }
 }
 
+// Lobes of 2 and 3 undulations in phase with the eccentricity may be a sensor that bends by 2 to 8
+// % of its range. The axis would then be 6 µm elsewhere. No reading tells them apart: the true axis
+// is within U whatever the eccentricity.
+TEST(SensorDoubts, TheAxisIsWithinUWhereASensorWouldBeElsewhere) {
+  for (const double eccentric_mm : {0.1, 0.2, 0.3, 1.0}) {
+    const JobResult result = job_of_lobes(eccentric_mm, 2e-3, 2e-3, 0.0);
+    const FitResult& fit = result.diagnoses.front()->extended;
+    for (const double z_mm : {fit.position_min_mm, fit.position_max_mm}) {
+      const auto [x, y] = fit.axis.axis.at(z_mm);
+      EXPECT_LE(std::hypot(x - eccentric_mm, y), 2.0 * fit.axis.u_at(z_mm)) << eccentric_mm;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis

@@ -6,6 +6,7 @@
 
 #include "diagnose/regression/joint.hpp"
 #include "diagnose/regression/size_prior.hpp"
+#include "diagnose/search/judge.hpp"
 #include "infer/classes.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -20,19 +21,23 @@ bool is_case_of(const Hypothesis& named, const Hypothesis& rival) {
          lobes->envelope == Harmonic::Envelope::growing && rival.shape.order == named.shape.order;
 }
 
-/// For a rival cause that might have been just the named form: their sizes tell which of both it
-/// is, not that the one formula has fewer parameters.
-double criterion_as(const Hypothesis& rival, const Columns& its, const Hypothesis& named,
-                    const Columns& own, const Projection& beside, std::size_t count) {
-  const auto norm2 = [&](const Columns& of) {
-    return beside.norm2(static_cast<Eigen::Index>(of.front()));
-  };
-  infer::SizePrior sizes = size_prior(rival);
-  sizes.median = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(own.size()),
-                                           sizes.median(0) * std::sqrt(norm2(its) / norm2(own)));
-  sizes.least.resize(0), sizes.most.resize(0);
-  return infer::weigh(sizes, beside, own, count).criterion +
-         2.0 * std::log(std::max({rival.tests, named.tests, 1.0}));
+/// Lobes that are in phase with the eccentricity may be just what a bend of the sensor makes of it.
+bool may_be_bend(const Hypothesis& lobes, const Hypothesis& bend) {
+  return lobes.effect && has_free_order(*lobes.effect) && bend.effect &&
+         bends_reading(bend.effect->term);
+}
+
+/// What the named columns cannot do of the best of some others, with all that stays (Eq. 87).
+double distance2(const Joint& joint, const Columns& others, const Columns& best,
+                 const Columns& named) {
+  Columns taken = others;
+  taken.insert(taken.end(), best.begin(), best.end());
+  const Eigen::VectorXd size = solve(joint.equations.total(), taken)
+                                   .coefficients.tail(static_cast<Eigen::Index>(best.size()));
+  taken.resize(others.size());
+  taken.insert(taken.end(), named.begin(), named.end());
+  return infer::left_of(project(joint.equations.total(), taken), best, size) /
+         (joint.sigma_mm * joint.sigma_mm);
 }
 
 }  // namespace
@@ -81,11 +86,24 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
     out.members.push_back(
         {named, best.gain, best.rank, 0.0, weighed.criterion + choice_of(named, weighed.mean)});
   }
-  const Class found =
-      infer::distinguish(joint.equations.total(), base, beside,
-                         {own, joint.of(others.size()), out.members.front().criterion}, rivals,
-                         joint.sigma_mm * joint.sigma_mm,
-                         static_cast<double>(joint.equations.count() - joint.solution.rank));
+  const double criterion = out.members.front().criterion;
+  for (std::size_t k = 0; k < rivals.size(); ++k) {
+    Candidate& c = causes[place[k]];
+    const Columns& its = rivals[k].columns;
+    const std::size_t count = joint.equations.count();
+    const double apart = distance2(joint, base, own, its) - distance2(joint, base, its, own);
+    if (may_be_bend(named, c.hypothesis))
+      c.criterion =
+          criterion + apart - lobes_over_bend(named, own, c.hypothesis, its, beside, count);
+    else if (may_be_bend(c.hypothesis, named))
+      c.criterion =
+          criterion + apart + lobes_over_bend(c.hypothesis, its, named, own, beside, count);
+    rivals[k].criterion = c.criterion;
+  }
+  const Class found = infer::distinguish(
+      joint.equations.total(), base, beside, {own, joint.of(others.size()), criterion}, rivals,
+      joint.sigma_mm * joint.sigma_mm,
+      static_cast<double>(joint.equations.count() - joint.solution.rank));
   out.probability = found.probability;
   for (const Class::Member& m : found.members) {
     out.members.push_back(causes[place[m.cause]]);

@@ -28,6 +28,30 @@ double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficien
          second_surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
 }
 
+double criterion_as(const Hypothesis& rival, const Columns& its, const Hypothesis& named,
+                    const Columns& own, const Projection& beside, std::size_t count) {
+  const auto seen2 = [&](std::size_t column) {
+    const auto j = static_cast<Eigen::Index>(column);
+    return std::max(beside.gram(j, j), 0.0);
+  };
+  infer::SizePrior sizes = size_prior(rival);
+  const double rms = sizes.median(0) * std::sqrt(seen2(its.front()));
+  sizes.median.resize(static_cast<Eigen::Index>(own.size()));
+  for (std::size_t j = 0; j < own.size(); ++j)
+    sizes.median(static_cast<Eigen::Index>(j)) =
+        seen2(own[j]) > 0.0 ? rms / std::sqrt(seen2(own[j])) : 0.0;
+  sizes.least.resize(0), sizes.most.resize(0);
+  return infer::weigh(sizes, beside, own, count).criterion +
+         2.0 * std::log(std::max({rival.tests, named.tests, 1.0}));
+}
+
+double lobes_over_bend(const Hypothesis& lobes, const Columns& its, const Hypothesis& bend,
+                       const Columns& own, const Projection& beside, std::size_t count) {
+  const Weighed weighed = weigh(bend, beside, own, count);
+  return criterion_as(lobes, its, bend, own, beside, count) - weighed.criterion -
+         choice_of(bend, weighed.mean);
+}
+
 double log_p_of(const Candidate& c) {
   return log_p_value(c.gain, static_cast<double>(c.rank), c.rss, c.freedom);
 }

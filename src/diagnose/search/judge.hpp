@@ -25,6 +25,17 @@ struct Candidate {
 /// harmonic costs that no jaws make (Eqs. 78, 80a).
 double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients);
 
+/// The criterion of a rival cause that might have been just the named form. Sizes tell which of
+/// both it is, not that the one formula has fewer parameters. The named columns have the sizes of
+/// the rival cause, by the root mean square that the other columns leave of them.
+double criterion_as(const Hypothesis& rival, const Columns& its, const Hypothesis& named,
+                    const Columns& own, const Projection& beside, std::size_t count);
+
+/// How much more the criterion of lobes is than that of a bend of the sensor. The lobes are in
+/// phase with the eccentricity, and just what the bend makes: sizes alone tell.
+double lobes_over_bend(const Hypothesis& lobes, const Columns& its, const Hypothesis& bend,
+                       const Columns& own, const Projection& beside, std::size_t count);
+
 /// ln of its own p-value.
 double log_p_of(const Candidate& candidate);
 

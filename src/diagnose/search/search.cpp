@@ -8,13 +8,19 @@
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/form_with_lobes.hpp"
+#include "diagnose/search/judge.hpp"
 #include "diagnose/search/stepwise_search.hpp"
+#include "infer/classes.hpp"
+#include "infer/fitted.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t most_starts = 6;  // local forms that a search is begun with
 constexpr double in_the_class = 1e-3;   // probability, as of any class
+// Odds that sizes alone give between lobes and a sensor that bends: with four to one the average of
+// both axes has either within two standard deviations.
+constexpr double most_odds = 4.0;
 
 Model search_with(StepwiseSearch& engine) {
   bool pattern_was_better = false;
@@ -124,6 +130,36 @@ Model search_few_angles(Proposer& proposer, StepwiseSearch& engine) {
   return best_of(problem, std::move(found));
 }
 
+/// Lobes in phase with the eccentricity may be just what a bend makes of it. Their sizes then tell
+/// which of both it is, and not that the bend has fewer parameters.
+void count_as_bend(const Problem& problem, const Model& bent, Model& straight) {
+  const std::size_t named = bent.terms.size();
+  std::vector<Hypothesis> all = bent.terms;
+  all.insert(all.end(), straight.terms.begin(), straight.terms.end());
+  const auto lobes =
+      std::find_if(all.begin() + static_cast<long>(named), all.end(),
+                   [](const Hypothesis& h) { return h.effect && has_free_order(*h.effect); });
+  if (lobes == all.end()) return;
+  NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, bent.phi,
+                            problem.threads);
+  const std::vector<Columns> places = equations.append(all);
+  const auto mid = places.begin() + static_cast<long>(named);
+  const infer::Fitted in{
+      equations.total(), equations.base(), {places.begin(), mid}, equations.count()};
+  const Projection left = project(in.gram, infer::besides(in.base, {mid, places.end()}));
+  const double variance = left.rss / static_cast<double>(in.count - left.rank);
+  double criterion = bent.criterion, sizes = 0.0;
+  for (std::size_t t = 0; t < named; ++t) {
+    const Hypothesis& bend = bent.terms[t];
+    if (!is_bent(bend)) continue;
+    sizes += lobes_over_bend(*lobes, places[static_cast<std::size_t>(lobes - all.begin())], bend,
+                             places[t], in.beside(t), in.count);
+    criterion += infer::left_of(left, places[t], in.of(t)) / variance;
+  }
+  const double most = 2.0 * std::log(most_odds);
+  straight.criterion = std::min(straight.criterion, criterion + std::clamp(sizes, -most, most));
+}
+
 /// What bends a sensor's readings is weighed against all that may be without it: two lobes that are
 /// in phase with the eccentricity look like it, one after the other they never take its place.
 Model weighed_without_bend(Model model, const Problem& problem) {
@@ -136,6 +172,7 @@ Model weighed_without_bend(Model model, const Problem& problem) {
   StepwiseSearch engine(proposer);
   std::vector<Model> found{std::move(model)};
   found.push_back(search_with(engine));
+  count_as_bend(problem, found.front(), found.back());
   return best_of(problem, std::move(found));
 }
 
