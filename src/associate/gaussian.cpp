@@ -1,18 +1,192 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "associate/gaussian.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "associate/distance_kernel.hpp"
-#include "associate/starts.hpp"
+#include "associate/placed.hpp"
+#include "associate/point_cloud.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
+
+/// Coordinates of the points in a frame about the centroid, in units of the cloud's length.
+Eigen::Matrix3Xd local_points(const PointCloud& cloud, const Eigen::Matrix3d& axes) {
+  Eigen::Matrix3Xd out(3, static_cast<Eigen::Index>(cloud.points.size()));
+  for (Eigen::Index i = 0; i < out.cols(); ++i)
+    out.col(i) = axes *
+                 (from_base(cloud, cloud.points[static_cast<std::size_t>(i)]) - cloud.centroid) /
+                 cloud.length;
+  return out;
+}
+
+/// Least squares of q·x = |q₁|² + |q₂|² (+ |q₃|² for a sphere) over columns 2q₁, 2q₂ (, 2q₃), 1
+/// and, for a cone, q₃, q₃².
+Eigen::VectorXd algebraic(const Eigen::Matrix3Xd& q, Shape shape) {
+  const bool sphere = shape == Shape::sphere, cone = shape == Shape::cone;
+  Eigen::MatrixXd a(q.cols(), cone ? 5 : sphere ? 4 : 3);
+  a.col(0) = 2.0 * q.row(0).transpose();
+  a.col(1) = 2.0 * q.row(1).transpose();
+  a.col(2).setOnes();
+  Eigen::VectorXd b = q.topRows<2>().colwise().squaredNorm().transpose();
+  if (sphere) {
+    a.col(3) = 2.0 * q.row(2).transpose();
+    b += q.row(2).cwiseAbs2().transpose();
+  }
+  if (cone) {
+    a.col(3) = q.row(2).transpose();
+    a.col(4) = q.row(2).cwiseAbs2().transpose();
+  }
+  Eigen::MatrixXd h = linear::gram(a);
+  h.diagonal().array() += 1e-13 * h.trace();
+  return linear::solve_normal(h, linear::transposed_product(a, b));
+}
+
+double root_of(double square) { return std::sqrt(std::max(square, 1e-12)); }
+
+/// ρ² + z² = 2Rρ + 2z₀z + r² − R² − z₀² about an axis through (x, y).
+void set_tube(Placed& placed, const Eigen::Matrix3Xd& q, double x, double y, double length) {
+  Eigen::MatrixXd a(q.cols(), 3);
+  const Eigen::VectorXd rho =
+      ((q.row(0).array() - x).square() + (q.row(1).array() - y).square()).sqrt().transpose();
+  a.col(0) = 2.0 * rho;
+  a.col(1) = 2.0 * q.row(2).transpose();
+  a.col(2).setOnes();
+  const Eigen::VectorXd b = rho.cwiseAbs2() + q.row(2).cwiseAbs2().transpose();
+  Eigen::MatrixXd h = linear::gram(a);
+  h.diagonal().array() += 1e-13 * h.trace();
+  const Eigen::VectorXd t = linear::solve_normal(h, linear::transposed_product(a, b));
+  placed.size = t[0] * length;
+  placed.second_size = root_of(t[2] + t[0] * t[0] + t[1] * t[1]) * length;
+  placed.offset += length * t[1] * placed.axes.row(2).transpose();
+}
+
+/// The element with its axis in a given direction.
+Placed start_along(Shape shape, const PointCloud& cloud, const Eigen::Matrix3d& axes) {
+  Placed placed{.shape = shape, .base = cloud.base, .offset = cloud.centroid, .axes = axes};
+  if (shape == Shape::plane || shape == Shape::line_2d || shape == Shape::line_3d) return placed;
+  const double length = cloud.length;
+  const Eigen::Matrix3Xd q = local_points(cloud, axes);
+  const Eigen::VectorXd t = algebraic(q, shape);
+  Eigen::Vector3d centre(t[0], t[1], shape == Shape::sphere ? t[3] : 0.0);
+  placed.offset += length * (axes.transpose() * centre);
+  placed.size = root_of(t[2] + centre.squaredNorm()) * length;
+  if (shape == Shape::cone) {  // ρ² = (r + z tan α)²
+    const double radius = root_of(t[2] + centre.head<2>().squaredNorm());
+    const double slope = t[4] > 0.0 ? std::copysign(std::sqrt(t[4]), t[3]) : t[3] / (2.0 * radius);
+    placed.second_size = std::atan(slope);
+    placed.size = radius * length * std::cos(placed.second_size);
+  }
+  if (shape == Shape::torus) set_tube(placed, q, t[0], t[1], length);
+  return placed;
+}
+
+double sum_of_squares(const Placed& placed, const PointCloud& cloud) {
+  double sum = 0.0, distance[block_size];
+  for (std::size_t at = 0; at < cloud.points.size(); at += block_size) {
+    const std::size_t count = std::min(block_size, cloud.points.size() - at);
+    evaluate_only_distances(placed, cloud.points.subspan(at, count), distance);
+    for (std::size_t i = 0; i < count; ++i) sum += distance[i] * distance[i];
+  }
+  return sum;
+}
+
+struct Candidate {
+  Placed placed;
+  double cost;
+};
+
+/// A short piece of a torus is a bent cylinder: the best cylinder, bent to all sides and radii.
+void add_bent_cylinders(const PointCloud& cloud, const std::vector<Eigen::Vector3d>& directions,
+                        std::vector<Candidate>& candidates) {
+  Candidate best{{}, std::numeric_limits<double>::infinity()};
+  for (const Eigen::Vector3d& direction : directions) {
+    const Placed placed = start_along(Shape::cylinder, cloud, axes_about(direction));
+    const double cost = sum_of_squares(placed, cloud);
+    if (cost < best.cost) best = {placed, cost};
+  }
+  if (!std::isfinite(best.cost)) return;
+  constexpr int sides = 16;
+  for (const double bend : {1.2, 2.0, 3.5, 6.0, 12.0, 30.0}) {
+    for (int side = 0; side < sides; ++side) {
+      const double angle = 2.0 * std::numbers::pi * side / sides, radius = bend * best.placed.size;
+      const Eigen::Vector3d to =
+          best.placed.axes.transpose() * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+      Placed placed = best.placed;
+      placed.shape = Shape::torus;
+      placed.offset += radius * to;
+      placed.second_size = best.placed.size;
+      placed.size = radius;
+      placed.axes = axes_about(to.cross(Eigen::Vector3d(best.placed.axes.row(2))));
+      candidates.push_back({placed, sum_of_squares(placed, cloud)});
+    }
+  }
+}
+
+bool by_principal_axes(Shape shape) {
+  return shape == Shape::plane || shape == Shape::line_2d || shape == Shape::line_3d ||
+         shape == Shape::circle_2d || shape == Shape::sphere;
+}
+
+Eigen::Matrix3d principal_axes(Shape shape, const PointCloud& cloud) {
+  if (shape == Shape::circle_2d) return Eigen::Matrix3d::Identity();
+  if (shape == Shape::line_2d) {  // normal, the plane's normal, direction
+    Eigen::Matrix3d axes;
+    axes.row(2) = cloud.principal.row(0);
+    axes.row(1) = Eigen::Vector3d::UnitZ();
+    axes.row(0) = axes.row(1).cross(axes.row(2));
+    return axes;
+  }
+  return axes_about(cloud.principal.row(shape == Shape::line_3d ? 0 : 2));
+}
+
+/// `count` directions of a half sphere, spread evenly (Fibonacci).
+std::vector<Eigen::Vector3d> half_sphere(std::size_t count) {
+  std::vector<Eigen::Vector3d> out;
+  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const double r = std::sqrt(1.0 - z * z), angle = turn * static_cast<double>(i);
+    out.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+  }
+  return out;
+}
+
+/// Where to begin, the most promising first. It uses principal axes if they are the answer.
+/// Otherwise it uses the algebraic equation of the element, which is linear once the direction of
+/// its axis is given, over directions spread evenly (Eq. 247).
+std::vector<Placed> starts_of(Shape shape, const PointCloud& cloud, std::size_t most) {
+  if (by_principal_axes(shape)) return {start_along(shape, cloud, principal_axes(shape, cloud))};
+  std::vector<Eigen::Vector3d> directions = half_sphere(cloud.points.size() < 50 ? 600 : 200);
+  for (Eigen::Index i = 0; i < 3; ++i) directions.emplace_back(cloud.principal.row(i));
+  std::vector<Candidate> candidates;
+  for (const Eigen::Vector3d& direction : directions) {
+    const Placed placed = start_along(shape, cloud, axes_about(direction));
+    const double cost = sum_of_squares(placed, cloud);
+    if (std::isfinite(cost)) candidates.push_back({placed, cost});
+  }
+  if (shape == Shape::torus) add_bent_cylinders(cloud, directions, candidates);
+  std::ranges::stable_sort(candidates, {}, &Candidate::cost);
+  std::vector<Placed> starts;
+  constexpr double near = 0.99;  // 8°: what is nearer goes the same way
+  for (const Candidate& candidate : candidates) {
+    if (starts.size() >= most) break;
+    const bool known = std::ranges::any_of(starts, [&](const Placed& other) {
+      return std::abs(other.axes.row(2).dot(candidate.placed.axes.row(2))) > near;
+    });
+    if (!known) starts.push_back(candidate.placed);
+  }
+  return starts;
+}
 
 constexpr std::size_t sample_size = 512;
 

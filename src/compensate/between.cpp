@@ -66,6 +66,14 @@ Vector3 BlockPath::tip_mm(const Way& way, double s, bool nominal) const {
 
 /// How far two points are from each other across the line.
 double BlockPath::across_mm(const Vector3& a, const Vector3& b) const {
+  return apart_mm(a, b, -INFINITY, INFINITY);
+}
+
+double BlockPath::distance_mm(const Vector3& tip) const {
+  return apart_mm(tip, start_mm_, 0.0, 1.0);
+}
+
+double BlockPath::apart_mm(const Vector3& a, const Vector3& b, double low, double high) const {
   Vector3 along, off;
   double length = 0.0, projected = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -74,20 +82,7 @@ double BlockPath::across_mm(const Vector3& a, const Vector3& b) const {
     length += along[i] * along[i];
     projected += along[i] * off[i];
   }
-  const double s = length > 0.0 ? projected / length : 0.0;
-  return std::hypot(off[0] - s * along[0], off[1] - s * along[1], off[2] - s * along[2]);
-}
-
-double BlockPath::distance_mm(const Vector3& tip) const {
-  Vector3 along, off;
-  double length = 0.0, projected = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    along[i] = end_mm_[i] - start_mm_[i];
-    off[i] = tip[i] - start_mm_[i];
-    length += along[i] * along[i];
-    projected += along[i] * off[i];
-  }
-  const double s = length > 0.0 ? std::clamp(projected / length, 0.0, 1.0) : 0.0;
+  const double s = length > 0.0 ? std::clamp(projected / length, low, high) : 0.0;
   return std::hypot(off[0] - s * along[0], off[1] - s * along[1], off[2] - s * along[2]);
 }
 

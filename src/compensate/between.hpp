@@ -42,6 +42,7 @@ class BlockPath {
                       bool nominal = false) const;
   double distance_mm(const Vector3& tip) const;
   double across_mm(const Vector3& a, const Vector3& b) const;
+  double apart_mm(const Vector3& a, const Vector3& b, double low, double high) const;
   struct Way;
   Way way(const AxisPositions& from, const AxisPositions& to) const;
   Vector3 tip_mm(const Way& way, double s, bool nominal) const;

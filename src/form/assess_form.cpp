@@ -11,7 +11,6 @@
 #include "form/sampling.hpp"
 #include "form/sections.hpp"
 #include "form/swallowed.hpp"
-#include "form/taken_off.hpp"
 #include "form/uncertainty.hpp"
 #include "form/whole_model.hpp"
 #include "trueaxis/error.hpp"

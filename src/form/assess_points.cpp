@@ -9,7 +9,6 @@
 #include "form/axis_line.hpp"
 #include "form/face.hpp"
 #include "form/notes.hpp"
-#include "form/uncertainty.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/form.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "form/exchange.hpp"
 #include "trueaxis/units.hpp"
@@ -16,11 +17,8 @@ constexpr int most_additions = 50;
 /// Least t with Σ_k q_k φ_k(centre, φ) + t ≥ the centre's distance in every direction φ, about an
 /// axis that may lean.
 double smallest(std::span<const CentrePoint> centres) {
-  double z_low = 1e300, z_high = -1e300;
-  for (const CentrePoint& one : centres) {
-    z_low = std::min(z_low, one.z_mm);
-    z_high = std::max(z_high, one.z_mm);
-  }
+  const auto [z_low, z_high] =
+      std::ranges::minmax(centres | std::views::transform(&CentrePoint::z_mm));
   const double middle = 0.5 * (z_low + z_high), half = std::max(0.5 * (z_high - z_low), 1e-9);
   constexpr Eigen::Index unknowns = 5;
   std::vector<Eigen::VectorXd> rows;

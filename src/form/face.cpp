@@ -4,15 +4,107 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 
+#include "base/threads.hpp"
 #include "form/section_model.hpp"
 #include "form/stream_checks.hpp"
-#include "form/taken_off.hpp"
+#include "form/uncertainty.hpp"
 #include "math/statistics.hpp"
 
 namespace trueaxis::form {
+namespace {
+
+double scale_of(std::span<const std::array<double, 2>> at_mm) {
+  double scale = 1e-9;
+  for (const auto& [u, v] : at_mm) scale = std::max({scale, std::abs(u), std::abs(v)});
+  return scale;
+}
+
+}  // namespace
+
+Exchange::Rows height_rows(std::span<const std::array<double, 2>> at_mm, bool plane,
+                           double scale_mm) {
+  Exchange::Rows rows(static_cast<Eigen::Index>(at_mm.size()), plane ? 3 : 2);
+  Eigen::Index row = 0;
+  for (const auto& [u, v] : at_mm) {
+    if (plane)
+      rows.row(row++) << 1.0, u / scale_mm, v / scale_mm;
+    else
+      rows.row(row++) << 1.0, u / scale_mm;
+  }
+  return rows;
+}
+
+HeightModel::HeightModel(std::span<const std::array<double, 2>> at_mm, bool plane,
+                         const Names& names)
+    : least_(height_rows(at_mm, plane, scale_of(at_mm)), Criterion::gaussian),
+      zone_(height_rows(at_mm, plane, scale_of(at_mm)), Criterion::minimum_zone),
+      names_(names),
+      scale_mm_(scale_of(at_mm)) {}
+
+std::vector<double> HeightModel::off_mm(std::span<const double> height_mm) const {
+  Exchange fit = least_;
+  return fit.off(height_mm, fit(height_mm));
+}
+
+std::vector<NamedValue> HeightModel::assess(std::span<const double> height_mm) const {
+  std::vector<NamedValue> values;
+  for (const bool zone : {false, true}) {
+    Exchange fit = zone ? zone_ : least_;
+    const Nearest nearest = fit(height_mm);
+    const std::vector<double> off = fit.off(height_mm, nearest);
+    const double slope = nearest.q.tail(nearest.q.size() - 1).norm() / scale_mm_;
+    const double upright = 1.0 / std::sqrt(1.0 + slope * slope);
+    const auto [low, high] = range_of(off);
+    const std::string about = std::string(zone ? "MZ" : "LS").append(names_.suffix);
+    const auto add = [&](const char* which, double value) {
+      values.push_back(
+          {names_.group, std::string(names_.prefix).append(which), about, upright * value});
+    };
+    add("t", high - low);
+    add("p", std::max(0.0, high));
+    add("v", std::max(0.0, -low));
+    add("q", root_mean_square(off));
+  }
+  return values;
+}
+
+std::vector<Spread> spreads_of_heights(std::span<const double> height_mm,
+                                       std::span<const double> off_mm, double noise_mm,
+                                       const FormOptions& options, const AssessHeights& assess) {
+  double variance = 0.0;
+  for (const double one : off_mm) variance += one * one / static_cast<double>(off_mm.size());
+  const double noise = noise_mm * noise_mm;
+  const double lost = variance > noise ? 1.0 - std::sqrt(1.0 - noise / variance) : 1.0;
+  std::vector<double> base(height_mm.begin(), height_mm.end());
+  for (std::size_t i = 0; i < base.size(); ++i) base[i] -= lost * off_mm[i];
+  const std::vector<NamedValue> values = assess(base);
+  const auto trials = static_cast<std::size_t>(options.trials);
+  std::vector<std::vector<double>> drawn(trials);
+  for_each_index(trials, options.threads, [&](std::size_t trial) {
+    boost::random::mt19937_64 engine(options.seed + 0x9E3779B97F4A7C15ULL * (trial + 1));
+    boost::random::normal_distribution<double> normal;
+    std::vector<double> heights = base;
+    for (double& one : heights) one += noise_mm * normal(engine);
+    for (const NamedValue& one : assess(heights)) drawn[trial].push_back(one.value);
+  });
+  std::vector<Spread> out(values.size(), {0.0, 0.0});
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    for (const auto& trial : drawn) {
+      const double off = trial[v] - values[v].value;
+      out[v].bias += off / static_cast<double>(trials);
+      out[v].u += off * off / static_cast<double>(trials);
+    }
+    out[v].u = std::sqrt(out[v].u);
+  }
+  return out;
+}
+
 namespace {
 
 constexpr double one_ring_mm = 0.01;
@@ -41,11 +133,8 @@ std::vector<NamedValue> axial_run_out(const std::vector<std::vector<std::size_t>
   std::vector<NamedValue> values;
   double circular = 0.0;
   for (const auto& ring : rings) {
-    double low = 1e300, high = -1e300;
-    for (const std::size_t i : ring) {
-      low = std::min(low, height_mm[i]);
-      high = std::max(high, height_mm[i]);
-    }
+    const auto at = [&](std::size_t i) { return height_mm[i]; };
+    const auto [low, high] = std::ranges::minmax(ring | std::views::transform(at));
     circular = std::max(circular, high - low);
   }
   if (!rings.empty()) values.push_back({"datum", "axial_runout_circular", "", circular});

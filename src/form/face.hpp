@@ -1,10 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "form/heights.hpp"
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "form/exchange.hpp"
+#include "form/uncertainty.hpp"
+#include "form/values.hpp"
 #include "trueaxis/form.hpp"
 
 namespace trueaxis::form {
+
+/// Heights over a plane or along a line, about those of least squares and of the minimum zone:
+/// FLTt, FLTp, FLTv, FLTq (ISO 12781) and STRt … (ISO 12780). Distances are at right angles.
+class HeightModel {
+ public:
+  struct Names {
+    const char *group, *prefix, *suffix;  ///< "flatness", "FLT", "PL"
+  };
+  /// @param at_mm coordinates of each height: two of a plane, one of a line (the second is 0)
+  HeightModel(std::span<const std::array<double, 2>> at_mm, bool plane, const Names& names);
+
+  std::vector<NamedValue> assess(std::span<const double> height_mm) const;
+  /// The residual of the least-squares plane or line.
+  std::vector<double> off_mm(std::span<const double> height_mm) const;
+
+ private:
+  Exchange least_, zone_;
+  Names names_;
+  double scale_mm_;
+};
+
+/// Rows 1, u, v of Eq. 274, u and v over `scale_mm`.
+Exchange::Rows height_rows(std::span<const std::array<double, 2>> at_mm, bool plane,
+                           double scale_mm);
+
+using AssessHeights = std::function<std::vector<NamedValue>(std::span<const double> height_mm)>;
+
+/// `spreads` of heights with white noise, which no filter takes off.
+/// @param off_mm about the least-squares criterion, by which the noise is judged (Eq. 271)
+std::vector<Spread> spreads_of_heights(std::span<const double> height_mm,
+                                       std::span<const double> off_mm, double noise_mm,
+                                       const FormOptions& options, const AssessHeights& assess);
 
 /// Flatness, and axial run-out about the spindle axis, of a face stream (Z_M, C, X).
 void assess_face(const ProbeStream& stream, std::span<const TakenOff> taken_off,

@@ -4,17 +4,8 @@
 namespace trueaxis {
 
 const char* to_string(ProfileFilter filter) {
-  switch (filter) {
-    case ProfileFilter::none:
-      return "none";
-    case ProfileFilter::gaussian:
-      return "gaussian";
-    case ProfileFilter::robust_gaussian:
-      return "robust_gaussian";
-    case ProfileFilter::spline:
-      return "spline";
-  }
-  return "";
+  constexpr const char* names[] = {"none", "gaussian", "robust_gaussian", "spline"};
+  return names[static_cast<std::size_t>(filter)];
 }
 
 const char* name_of(Criterion criterion) {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "form/sampling.hpp"
-#include "form/uncertainty.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {

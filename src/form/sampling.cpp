@@ -8,7 +8,6 @@
 #include <limits>
 #include <numeric>
 
-#include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::form {

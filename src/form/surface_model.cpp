@@ -12,7 +12,6 @@
 #include "form/swallowed.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
-#include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
 namespace {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <string_view>
 
 #include "form/sampling.hpp"
@@ -26,11 +27,8 @@ constexpr std::array<std::string_view, 8> resting_on_lobes{
 class OrderAlongZ {
  public:
   OrderAlongZ(const std::vector<SectionModel>& sections, int order) {
-    double low = 1e300, high = -1e300;
-    for (const SectionModel& one : sections) {
-      low = std::min(low, one.z_mm().value_or(0.0));
-      high = std::max(high, one.z_mm().value_or(0.0));
-    }
+    const auto z_of = [](const SectionModel& one) { return one.z_mm().value_or(0.0); };
+    const auto [low, high] = std::ranges::minmax(sections | std::views::transform(z_of));
     const bool grows = sections.size() > 2 && high > low;
     const Eigen::Index count = grows ? 2 : 1;
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);

@@ -2,11 +2,20 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
-#include "form/part_model.hpp"
+#include "form/section_model.hpp"
+#include "form/surface_model.hpp"
 
 namespace trueaxis::form {
+
+/// A part, or its datum: sections, each by itself or read off one surface.
+struct PartModel {
+  std::vector<SectionModel> sections;
+  std::optional<SurfaceModel> surface{};
+};
 
 /// Filtered profiles of all sections of the part, and of those of its datum.
 struct Profiles {
@@ -32,5 +41,17 @@ std::vector<Spread> spreads(const PartModel& part, const PartModel& datum,
 /// parabola. Eq. 269. @param radius_mm of the section, @param ball_mm of the ball
 std::vector<double> touched_by_ball(const Trace& trace, std::span<const double> centre_mm,
                                     double radius_mm, double ball_mm, bool bore);
+
+/// The values after one u of an amplitude more.
+using Changed = std::function<std::vector<NamedValue>(const TakenOff& one, std::size_t column)>;
+
+/// Adds to u the uncertainty of the amplitudes that were subtracted; Eq. 291.
+/// @param values without any change
+void add_taken_off(std::span<const TakenOff> taken_off, const std::vector<NamedValue>& values,
+                   std::vector<Spread>& spread, const Changed& changed);
+
+/// Readings with one u more of an amplitude.
+std::vector<double> added(std::span<const double> reading_mm, const TakenOff& one,
+                          std::size_t column);
 
 }  // namespace trueaxis::form

@@ -2,7 +2,6 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "interchange/formats.hpp"
 #include "trueaxis/error.hpp"

@@ -68,4 +68,9 @@ struct QifResults {
 /// bytes. Its QPId is the UUID (version 3, RFC 9562) of all else that it holds.
 std::string qif_document(const QifResults& results, const std::string& version);
 
+/// xs:decimal, which has no exponent: the fewest digits that are read as the same number. They are
+/// not more than the 18 that every XML Schema processor must take (a length in mm then to 1e-18
+/// mm).
+std::string qif_decimal(double value);
+
 }  // namespace trueaxis

@@ -76,4 +76,12 @@ inline Motion about(const Eigen::Vector3d& point, const Eigen::Matrix3d& R,
   return {R, point + shift - R * point};
 }
 
+/// w with exp(w) = R, |w| ≤ π.
+inline Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) {
+  Eigen::Quaterniond q(R);
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const double sine = q.vec().norm();
+  return (sine > 0.0 ? 2.0 * std::atan2(sine, q.w()) / sine : 2.0) * q.vec();
+}
+
 }  // namespace trueaxis::rigid

@@ -120,16 +120,11 @@ bool at_largest_change(const Machine& machine, const AxisPositions& change) {
   return false;
 }
 
-ToolPose pose_of(const Compiled& machine, const rigid::Motion& tool) {
-  return {rigid::array(tool.t), rigid::array(Vector3d(tool.R * machine.tool_direction)),
-          rigid::rows(tool.R)};
-}
-
 CompensatedPosition result_of(const MachineModel& model, const ToolPose& target,
                               const AxisPositions& near, const Solution& solution) {
   CompensatedPosition result;
   result.axes = sum(near, solution.change);
-  const ToolPose pose = pose_of(model.compiled(), solution.tool);
+  const ToolPose pose = model.compiled().pose(solution.tool);
   result.tip_left_mm = (solution.tool.t - rigid::eigen(target.tip_mm)).norm();
   result.direction_left_rad = angle_between_rad(pose.direction, target.direction);
   result.about_tool_axis_rad = about_tool_axis_rad(pose, target);
@@ -166,7 +161,7 @@ ExactCompensation compensate_exactly_with_before(const MachineModel& model, cons
   refuse_outside(result, machine.machine);
   const bool as_commanded = held.change == AxisPositions{};
   return {std::move(result),
-          pose_of(machine, as_commanded ? solution.before : actual_tool(machine, from, setting))};
+          machine.pose(as_commanded ? solution.before : actual_tool(machine, from, setting))};
 }
 
 CompensatedPosition compensate_exactly(const MachineModel& model, const ToolPose& target,

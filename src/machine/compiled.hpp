@@ -60,6 +60,11 @@ struct MachineModel::Compiled {
   rigid::Motion workpiece;                                                       ///< D
   Eigen::Vector3d spindle_shift, spindle_turn, workpiece_shift, workpiece_turn;  ///< first order
 
+  ToolPose pose(const rigid::Motion& tool) const {
+    return {rigid::array(tool.t), rigid::array(Eigen::Vector3d(tool.R * tool_direction)),
+            rigid::rows(tool.R)};
+  }
+
   Eigen::Vector3d tip(const Setting& setting) const {
     return gauge_point - setting.tool_length_mm * tool_direction;
   }

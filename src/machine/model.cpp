@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 
 #include "machine/screw.hpp"
 #include "trueaxis/error.hpp"
@@ -67,10 +66,6 @@ void check(const Machine& machine, const ErrorModel& errors) {
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 
-ToolPose pose_of(const rigid::Motion& tool, const Vector3d& direction) {
-  return {rigid::array(tool.t), rigid::array(Vector3d(tool.R * direction)), rigid::rows(tool.R)};
-}
-
 ToolDisplacement at_tip(const Screw& screw, const Vector3d& tip) {
   return {rigid::array(screw.of_point(tip)), rigid::array(screw.w)};
 }
@@ -99,11 +94,11 @@ const Machine& MachineModel::machine() const { return compiled_->machine; }
 const ErrorModel& MachineModel::errors() const { return compiled_->errors; }
 
 ToolPose MachineModel::nominal(const AxisPositions& axes, const Setting& setting) const {
-  return pose_of(nominal_tool(*compiled_, axes, setting), compiled_->tool_direction);
+  return compiled_->pose(nominal_tool(*compiled_, axes, setting));
 }
 
 ToolPose MachineModel::actual(const AxisPositions& axes, const Setting& setting) const {
-  return pose_of(actual_tool(*compiled_, axes, setting), compiled_->tool_direction);
+  return compiled_->pose(actual_tool(*compiled_, axes, setting));
 }
 
 ToolJacobian MachineModel::jacobian(const AxisPositions& axes, const Setting& setting) const {

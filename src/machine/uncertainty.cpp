@@ -2,7 +2,6 @@
 #include "machine/uncertainty.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace trueaxis {

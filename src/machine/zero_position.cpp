@@ -70,14 +70,6 @@ Vector3d tilt_between(const Vector3d& u, const Vector3d& v, Eigen::Index own, ch
                        " cannot be expressed as location errors: its line is not along its letter");
 }
 
-Vector3d vector_of_rotation(const Eigen::Matrix3d& R) {
-  Eigen::Quaterniond q(R);
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  const double sine = q.vec().norm();
-  return sine > 0.0 ? Vector3d(2.0 * std::atan2(sine, q.w()) / sine * q.vec())
-                    : Vector3d(2.0 * q.vec());
-}
-
 void add(ErrorModel& errors, std::size_t body, const Vector3d& values, bool angular) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double value = values[static_cast<Eigen::Index>(i)];
@@ -123,7 +115,7 @@ ErrorModel parameter_errors(const DenavitHartenbergChain& chain, const Machine& 
   // S = A N⁻¹ in the frame of the part, seen from the gauge point N.t: turned there and moved.
   const Eigen::Matrix3d R = actual.last.R * nominal.last.R.transpose();
   add(errors, spindle_body, actual.last.t - nominal.last.t, false);
-  add(errors, spindle_body, vector_of_rotation(R), true);
+  add(errors, spindle_body, rigid::rotation_vector(R), true);
   return errors;
 }
 

@@ -6,10 +6,37 @@
 #include <vector>
 
 #include "nc/block.hpp"
-#include "nc/cycle.hpp"
+#include "nc/modal.hpp"
 #include "nc/program.hpp"
 
 namespace trueaxis::nc {
+
+/// A canned drilling cycle along Z as its block commands it (G81, G82, G83). All in mm, words of
+/// the program.
+struct Cycle {
+  int code = 81;
+  double from_mm[3] = {};  ///< where the tool is: X Y Z
+  double to_mm[2] = {};    ///< X Y of the first hole
+  double step_mm[2] = {};  ///< from one hole to the next, under G91
+  int holes = 1;           ///< K or L
+  double r_mm = 0.0, bottom_mm = 0.0;
+  double initial_mm = 0.0;  ///< Z where the series of cycles began
+  bool to_r = false;        ///< G99: back to R; G98: to the initial level
+  double peck_mm = 0.0;     ///< Q of G83
+};
+
+/// A straight move of a cycle.
+struct CycleStep {
+  double at_mm[3] = {};  ///< X Y Z
+  bool feed = false;     ///< G1, else G0
+  bool bottom = false;   ///< where G82 dwells
+};
+
+/// The moves of a cycle, as LinuxCNC makes them: up to R where the tool is below it, above the
+/// hole, to R, down, back. G83 goes back to R after every Q and down again to 0.254 mm above where
+/// it was. The first of them goes above the first hole or up to R.
+/// @param trouble why it is not a cycle, and what to do
+std::vector<CycleStep> steps_of(const Cycle& cycle, std::string& trouble);
 
 /// The words of canned cycles, which stay in force from block to block until the cycle ends: R and
 /// Z as levels, Q, P.

@@ -8,7 +8,6 @@
 
 #include "nc/number_text.hpp"
 #include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis::nc {
 namespace {
@@ -113,14 +112,7 @@ class Writer {
       out_.text += rapid ? "G0" : "G1";
     }
     const int without_axes = words_;
-    for (std::size_t k = 0; k < axis_count; ++k) {
-      if (!has(options_.axes, k)) continue;
-      const NewNumber now = new_number(step, k, position.words[k], options_);
-      if (!is_new(k, now)) continue;
-      separate(line);
-      append(axis_letters[k], now);
-      in_force_[k] = now.value;
-    }
+    add_axes(line, step, position);
     if (words_ == without_axes) return out_.text.resize(before);  // it is where the one before is
     rapid_ = rapid;
     check_length(line, out_.text.size() - begin);
@@ -204,14 +196,7 @@ class Writer {
     if (line.skippable) out_.text += '/';
     words_ = 0;
     if (first && move.sets) repeat_words(line, move);
-    for (std::size_t k = 0; k < axis_count; ++k) {
-      if (!has(options_.axes, k)) continue;
-      const NewNumber now = new_number(move, k, position.words[k], options_);
-      if (!is_new(k, now)) continue;
-      separate(line);
-      append(axis_letters[k], now);
-      in_force_[k] = now.value;
-    }
+    add_axes(line, move, position);
     if (move.modal.feed_mode == FeedMode::inverse_time) append_feed_word(line);
     if (words_ == 0) return out_.text.resize(begin);  // it is where the one before is
     check_length(line, out_.text.size() - begin);
@@ -312,6 +297,18 @@ class Writer {
     while (!out_.text.empty() && (out_.text.back() == ' ' || out_.text.back() == '\t'))
       out_.text.pop_back();
     copied_ = word.end;
+  }
+
+  /// Words of the axes whose output changed.
+  void add_axes(const Line& line, const Move& move, const NewPosition& position) {
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      if (!has(options_.axes, k)) continue;
+      const NewNumber now = new_number(move, k, position.words[k], options_);
+      if (!is_new(k, now)) continue;
+      separate(line);
+      append(axis_letters[k], now);
+      in_force_[k] = now.value;
+    }
   }
 
   /// Words of axes that the block does not name and whose output changed.

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording/column_names.hpp"
 
-#include <algorithm>
-
-#include "format/csv_text.hpp"
 #include "format/folded.hpp"
 #include "format/units.hpp"
 #include "recording/header_words.hpp"
@@ -14,10 +11,20 @@ namespace {
 /// What the words of a name make of a column; nothing where they do not say which.
 std::optional<NamedRole> role_of(const HeaderName& name) {
   using enum HeaderMeaning;
-  const auto with_axis = [&](char axis, NamedRole role) {
-    role.language = name.language;
-    return name.axis == 0 || name.axis == axis ? std::optional(role) : std::nullopt;
-  };
+  static constexpr struct {
+    HeaderMeaning meaning;
+    char axis;  ///< that the name may have as well
+    RecordedRole role;
+    std::optional<bool> diameter{};
+    bool gauge = false;
+  } known[] = {{radius, 'x', RecordedRole::x, false},
+               {diameter, 'x', RecordedRole::x, true},
+               {HeaderMeaning::gauge, 'x', RecordedRole::x, false, true},
+               {angle, 'c', RecordedRole::c},
+               {face, 'z', RecordedRole::face},
+               {time, 0, RecordedRole::t},
+               {pass, 0, RecordedRole::pass},
+               {setup, 0, RecordedRole::setup}};
   if (!name.meaning) {
     if (name.axis == 0 && !name.position) return {};
     NamedRole role{name.axis == 'x'   ? RecordedRole::x
@@ -28,26 +35,10 @@ std::optional<NamedRole> role_of(const HeaderName& name) {
     role.language = name.language;
     return role;
   }
-  switch (*name.meaning) {
-    case radius:
-      return with_axis('x', {RecordedRole::x, false});
-    case diameter:
-      return with_axis('x', {RecordedRole::x, true});
-    case gauge:
-      return with_axis('x', {RecordedRole::x, false, true});
-    case angle:
-      return with_axis('c', {RecordedRole::c});
-    case face:
-      return with_axis('z', {RecordedRole::face});
-    case time:
-      return with_axis(0, {RecordedRole::t});
-    case pass:
-      return with_axis(0, {RecordedRole::pass});
-    case setup:
-      return with_axis(0, {RecordedRole::setup});
-    default:
-      return {};
-  }
+  for (const auto& one : known)
+    if (one.meaning == *name.meaning && (name.axis == 0 || name.axis == one.axis))
+      return NamedRole{one.role, one.diameter, one.gauge, false, name.language};
+  return {};
 }
 
 UnitKind quantity_of(RecordedRole role) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <optional>
 
 #include "base/number.hpp"
 #include "format/csv_text.hpp"

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numeric>
-#include <string>
 
 #include "trueaxis/error.hpp"
 #include "trueaxis/spindle.hpp"

@@ -1,17 +1,246 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/spindle.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <tuple>
 
-#include "math/statistics.hpp"
-#include "spindle/motion.hpp"
+#include "base/angle.hpp"
+#include "spindle/joint_estimate.hpp"
 #include "spindle/recording.hpp"
+#include "spindle/synchronous.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+
+constexpr double noted_rad = 2.0 * rad_per_deg, refused_rad = 10.0 * rad_per_deg;
+constexpr double noted_gain = 0.03;
+constexpr double times_motion = 3.0;  // the spindle's own order 1 is no larger than its others.
+
+/// Holds the stated angles against the eccentricity, which all sensors of a set-up see alike, each
+/// at its own angle: where columns are exchanged or an angle has the other sign, it is far off.
+/// Small differences, of angle or of gain, are notes.
+/// @throws InputError where an angle cannot be the stated one.
+void check_sensors_agree(std::span<const RunReadings> runs, std::span<const SynchronousPart> parts,
+                         std::vector<std::string>& notes) {
+  std::vector<Diagnostic> wrong;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const RunReadings& run = runs[r];
+    const Eigen::MatrixXcd& z = parts[r].harmonics;
+    const double others = std::sqrt(z.rightCols(z.cols() - 2).squaredNorm() /
+                                    static_cast<double>(run.angles_rad.size()));
+    const std::complex<double> first = z(0, 1);
+    const double blurred = times_motion * others / std::abs(first);
+    if (run.angles_rad.size() > 1 && blurred > noted_rad)
+      notes.push_back(
+          fmt::format("{}: the eccentricity shows the sensors' angles only to {:.0f}° because of "
+                      "the other orders: a smaller error remains undetected",
+                      run.stream, std::max(2.0 * blurred, refused_rad) / rad_per_deg));
+    for (std::size_t s = 1; s < run.angles_rad.size(); ++s) {
+      const std::complex<double> seen = z(static_cast<Eigen::Index>(s), 1) / first;
+      const double stated_rad = run.angles_rad[s] - run.angles_rad[0];
+      const double off_rad = apart_rad(std::arg(seen), stated_rad);
+      const double seen_deg = std::fmod(std::arg(seen) / rad_per_deg + 360.0, 360.0);
+      const std::string what = fmt::format(
+          "from the eccentricity, sensor {} is {:.1f}° from sensor 1, but {:.1f}° is stated", s + 1,
+          seen_deg, std::fmod(stated_rad / rad_per_deg + 720.0, 360.0));
+      const double gain = std::abs(seen);
+      if (off_rad > std::max(refused_rad, 2.0 * blurred)) {
+        wrong.push_back({run.stream, 0, 0,
+                         what + ": correct the angles (from +X towards +Y) or the order of the "
+                                "columns"});
+      } else if (off_rad > std::max(noted_rad, blurred)) {
+        notes.push_back(run.stream + ": " + what);
+      } else if (std::abs(gain - 1.0) > std::max(noted_gain, blurred)) {
+        notes.push_back(
+            fmt::format("{}: sensor {} shows the eccentricity {:.3g} times as large as sensor 1: "
+                        "check its gain",
+                        run.stream, s + 1, gain));
+      }
+    }
+  }
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+}
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t polar_points = 720, cloud_points = 4000;
+
+SpindleHarmonic harmonic_of(const JointEstimate& all, const OrderSolution& one, Index unknown) {
+  if (unknown < 0 || !one.determined[static_cast<std::size_t>(unknown)]) return {nan, nan, nan};
+  const double noise = all.widening() * one.u_mm[unknown];
+  const double moved = one.moved_mm.row(unknown).norm();
+  return {one.unknowns[unknown].real(), -one.unknowns[unknown].imag(), std::hypot(noise, moved)};
+}
+
+std::string why_suppressed(const OrderSolution& one) {
+  if (std::ranges::find(one.determined, false) == one.determined.end()) return "";
+  if (!std::isfinite(one.condition))
+    return "the layout cannot separate form and motion of this order (singular)";
+  return fmt::format(
+      "condition number {:.0f} above {:.0f}: errors of noise and angles would become too large",
+      one.condition, one.largest_condition);
+}
+
+std::vector<SeparatedOrder> orders_of(const JointEstimate& all) {
+  std::vector<SeparatedOrder> out;
+  const Layout& layout = all.layout();
+  for (std::size_t k = 0; k < all.orders().size(); ++k) {
+    const OrderSolution& one = all.orders()[k];
+    out.push_back({all.order_min() + static_cast<int>(k), one.condition, why_suppressed(one),
+                   harmonic_of(all, one, layout.form()), harmonic_of(all, one, layout.along()),
+                   harmonic_of(all, one, layout.across())});
+  }
+  return out;
+}
+
+std::vector<SpindleRun> runs_of(const JointEstimate& all) {
+  std::vector<SpindleRun> out;
+  for (std::size_t r = 0; r < all.runs().size(); ++r) {
+    const RunReadings& run = all.runs()[r];
+    const SynchronousPart& part = all.parts()[r];
+    SpindleRun one;
+    one.stream = run.stream;
+    one.setup = run.set_up.number;
+    one.sensors = run.angles_rad.size();
+    one.readings = run.c_rad.size();
+    one.left_out = run.left_out;
+    one.turns = all.fits()[r].turns();
+    one.readings_per_turn = static_cast<double>(one.readings) / one.turns;
+    one.asynchronous_rms_mm = std::sqrt(part.asynchronous_mm.squaredNorm() /
+                                        static_cast<double>(part.asynchronous_mm.size()));
+    const Complex e = all.eccentricity(r);
+    const double sensors = static_cast<double>(one.sensors);
+    one.eccentricity = {std::abs(e),
+                        std::sqrt(0.5 * part.covariance[1].diagonal().real().sum()) / sensors, "mm",
+                        ""};
+    one.eccentricity_angle_rad = -std::arg(e);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+double least_per_turn(const JointEstimate& all) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t r = 0; r < all.runs().size(); ++r)
+    least =
+        std::min(least, static_cast<double>(all.runs()[r].c_rad.size()) / all.fits()[r].turns());
+  return least;
+}
+
+MotionValues values_of(const JointEstimate& all, const UncertainSeries& series, bool across) {
+  const auto moving = all.asynchronous(across);
+  MotionValues out{range_estimate(series), {}, {}};
+  if (moving.empty()) {
+    out.asynchronous = out.total = {nan, nan, "mm", "no set-up sees this direction alone"};
+    return out;
+  }
+  std::tie(out.asynchronous, out.total) =
+      asynchronous_and_total(series, moving, least_per_turn(all));
+  return out;
+}
+
+PolarCurves polar_of(const JointEstimate& all, const UncertainSeries& motion,
+                     const UncertainSeries& form) {
+  PolarCurves out;
+  for (std::size_t i = 0; i < polar_points; ++i) {
+    out.angle_rad.push_back(two_pi * static_cast<double>(i) / static_cast<double>(polar_points));
+    out.motion_mm.push_back(value_at(motion.harmonics, out.angle_rad.back()));
+    if (all.layout().has_form())
+      out.form_mm.push_back(value_at(form.harmonics, out.angle_rad.back()));
+  }
+  out.u_motion_mm = u_of_curve(motion, out.angle_rad);
+  if (all.layout().has_form()) out.u_form_mm = u_of_curve(form, out.angle_rad);
+  for (const AsynchronousMotion& run : all.asynchronous(false)) {
+    const std::size_t shown = std::min(run.c_rad.size(), cloud_points - out.total_mm.size());
+    for (std::size_t i = 0; i < shown; ++i) {
+      out.total_angle_rad.push_back(run.c_rad[i]);
+      out.total_mm.push_back(value_at(motion.harmonics, run.c_rad[i]) + run.motion_mm[i]);
+    }
+  }
+  return out;
+}
+
+/// Once per revolution, and the whole orders above it.
+void split_axial(const UncertainSeries& series, ErrorMotion& motion) {
+  const double u_mm = std::hypot(series.u_mm[1], series.moved_mm.row(1).norm());
+  motion.fundamental = {2.0 * std::abs(series.harmonics[1]), 2.0 * u_mm, "mm", ""};
+  UncertainSeries rest = series;
+  rest.harmonics[1] = 0.0;
+  rest.u_mm[1] = 0.0;
+  rest.moved_mm.row(1).setZero();
+  motion.residual = range_estimate(rest);
+}
+
+void add_notes(const JointEstimate& all, const SpindleOptions& options,
+               std::vector<std::string>& notes) {
+  const std::string which = all.axial() ? "axial: " : "";
+  if (all.order_max() < options.order_max)
+    notes.push_back(fmt::format(
+        "{}the readings of a revolution support orders up to {}: higher orders are not computed",
+        which, all.order_max()));
+  if (!all.axial())
+    notes.push_back(
+        "order 1 is the part's eccentricity together with the spindle's fundamental motion; ISO "
+        "230-7 does not define a radial error motion of order 1");
+  if (!all.axial() && !all.layout().has_across())
+    notes.push_back(fmt::format("the motion is known only along {:g}°, the line of the sensors",
+                                all.sensitive_rad() / rad_per_deg));
+  if (!all.axial() && !all.has_radius())
+    notes.push_back(
+        "the radius is not known, so the form includes the part of order 2 that eccentricity adds "
+        "(e²/4R): state nominal_radius");
+  if (all.axial() && !all.runs().front().on_axis)
+    notes.push_back(all.layout().has_form()
+                        ? "axial: order 1 is the squareness of the face together with the "
+                          "fundamental motion: to measure the latter, read at X = 0"
+                        : "axial: off the axis one sensor in one set-up reads the face's form "
+                          "together with the motion: read at X = 0 or re-index the part");
+  if (options.u_angle_rad == 0.0 && !all.axial() && all.layout().has_across())
+    notes.push_back("the sensors' angles are treated as exact: state their u (--u-angle-deg)");
+  if (all.widening() > 1.0)
+    notes.push_back(fmt::format(
+        "{}sensors and set-ups contradict each other, χ²/ν = {:.1f}: TrueAxis widens every u by "
+        "{:.2f}; check the angles, the sensors' gains and whether the part kept its form",
+        which, all.disagreement(), all.widening()));
+  for (const RunReadings& run : all.runs())
+    if (run.left_out > 0)
+      notes.push_back(
+          fmt::format("{}: {} readings of set-up {} lie far from all others and are excluded",
+                      run.stream, run.left_out, run.set_up.number));
+}
+
+/// Radial runs, or axial ones, in one estimate. @throws InputError for a layout without a solution.
+ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& options,
+                         std::vector<std::string>& notes) {
+  const JointEstimate all(std::move(runs), options);
+  if (!all.axial()) check_sensors_agree(all.runs(), all.parts(), notes);
+  const Layout& layout = all.layout();
+  ErrorMotion out;
+  out.sensitive_rad = all.sensitive_rad();
+  out.across_seen = layout.has_across();
+  out.orders = orders_of(all);
+  const UncertainSeries motion = all.series(layout.along()), form = all.series(layout.form());
+  out.sensitive = values_of(all, motion, false);
+  if (layout.has_across()) out.across = values_of(all, all.series(layout.across()), true);
+  out.form =
+      layout.has_form() ? range_estimate(form) : Estimate{nan, nan, "mm", "no form is separated"};
+  if (all.axial() && all.order_min() == 1) split_axial(motion, out);
+  out.runs = runs_of(all);
+  out.disagreement = all.disagreement();
+  out.polar = polar_of(all, motion, form);
+  add_notes(all, options, notes);
+  return out;
+}
+
+}  // namespace
 
 double SpindleHarmonic::amplitude_mm() const { return std::hypot(cos_mm, sin_mm); }
 double SpindleHarmonic::phase_rad() const { return std::atan2(sin_mm, cos_mm); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands in a QIF document is what the result holds: numbers are written with the digits that
 // are read as the same number, up to the 18th behind the point.
+#include "interchange/qif.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +13,6 @@
 #include "associate/files/association_files.hpp"
 #include "form/files/form_files.hpp"
 #include "format/outputs.hpp"
-#include "interchange/qif_parts.hpp"
 #include "support/qif_reader.hpp"
 
 namespace trueaxis::testing {

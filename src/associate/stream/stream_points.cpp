@@ -24,24 +24,10 @@ bool towards_the_axis(const Feature& torus, const StreamPoints& points) {
 }  // namespace
 
 Element element_of(SurfaceKind surface) {
-  switch (surface) {
-    case SurfaceKind::cone:
-      return Element::cone;
-    case SurfaceKind::cylinder:
-      return Element::cylinder;
-    case SurfaceKind::plane:
-      return Element::plane;
-    case SurfaceKind::section:
-      return Element::circle;
-    case SurfaceKind::sphere:
-      return Element::sphere;
-    case SurfaceKind::torus:
-      return Element::torus;
-    case SurfaceKind::own:
-      break;
-  }
-  expects(false, "a surface of the catalogue");
-  return Element::circle;
+  expects(surface != SurfaceKind::own, "a surface of the catalogue");
+  using enum Element;
+  constexpr Element elements[] = {cone, cylinder, plane, circle, sphere, torus};
+  return elements[static_cast<std::size_t>(surface)];
 }
 
 StreamPoints points_of_stream(const ProbeStream& stream, SurfaceKind surface,

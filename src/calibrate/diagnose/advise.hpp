@@ -25,6 +25,6 @@ void advise(const Questions& questions, const infer::Dictionary& dictionary,
 
 /// The columns of all unknowns and of the places, over σ, that planned rows determine, and those
 /// that they may determine. No row is read quite where it was planned.
-Eigen::MatrixXd planned_base(const Eigen::MatrixXd& all, std::size_t unknowns);
+MatrixXd planned_base(const MatrixXd& all, std::size_t unknowns);
 
 }  // namespace trueaxis::calibrate_detail

@@ -1,17 +1,175 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/diagnose/explain.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "infer/classes.hpp"
+#include "infer/cross_validation.hpp"
 #include "infer/stepwise.hpp"
 #include "math/covariance.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
+namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+constexpr int highest_alias = 12;
+constexpr double sure_of_order = 0.95;
+constexpr double same_part = 1e-3;  // of a column's square that is left
+
+MatrixXd waves(const VectorXd& position, int order) {
+  MatrixXd out(position.size(), 2);
+  out << (order * position.array()).cos().matrix(), (order * position.array()).sin().matrix();
+  return out.rowwise() - out.colwise().mean();
+}
+
+/// Whether every column that is there lies in those of `basis`.
+bool within(const MatrixXd& columns, const MatrixXd& basis) {
+  const MatrixXd left = columns - linear::product(basis, linear::least_squares(basis, columns));
+  bool any = false;
+  for (Index j = 0; j < columns.cols(); ++j) {
+    const double whole = columns.col(j).squaredNorm();
+    if (whole < same_part * static_cast<double>(columns.rows())) continue;
+    any = true;
+    if (left.col(j).squaredNorm() > same_part * whole) return false;
+  }
+  return any;
+}
+
+std::string data_row(const TipFit& fit, Index equation) {
+  const auto row = std::ranges::find_if(fit.problem.rows, [&](const Row& one) {
+    return equation >= one.first && equation < one.first + one.equations();
+  });
+  return fmt::format("row {} of file {}", row->row + 1, row->file + 1);
+}
+
+}  // namespace
+
+void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& finding) {
+  const auto* error = std::get_if<ErrorOfPosition>(&term.of.term);
+  if (!error || term.of.shape.empty() || term.of.shape.front().name != "order") return;
+  const std::size_t axis = error->of ? index_of(*error->of) : error->error.body;
+  VectorXd position(static_cast<Index>(problem.rows.size()));
+  for (std::size_t i = 0; i < problem.rows.size(); ++i)
+    position[static_cast<Index>(i)] = problem.rows[i].axes[axis];
+  const double own = term.of.shape.front().value;
+  const MatrixXd basis = waves(position, static_cast<int>(own));
+  double sum = 1.0 / (own * own);
+  for (int order = 5; order <= highest_alias; ++order) {
+    if (order == own || !within(waves(position, order), basis)) continue;
+    sum += 1.0 / (order * order);
+    finding.alias += (finding.alias.empty() ? "order " : ", ") + std::to_string(order);
+  }
+  const double share = 1.0 / (own * own * sum);
+  finding.likely_order = share >= sure_of_order;
+  finding.probability *= share;
+  for (Rival& rival : finding.rivals) rival.probability *= share;
+}
+
+std::vector<std::array<std::string, 2>> pairs_like(const infer::Dictionary& dictionary,
+                                                   const std::vector<Term>& terms, const Set& set,
+                                                   std::size_t at, const MachineFinding& finding) {
+  constexpr std::size_t of_terms = 60, most = 5;
+  constexpr double least_part = 0.02;  // of a cause that one member makes alone
+  if (terms[set[at]].is_pattern()) return {};
+  const infer::Projection beside = dictionary.beside(infer::without(set, at));
+  const infer::Columns& own = dictionary.block(set[at]).columns;
+  const infer::Solution all = dictionary.fitted(infer::with_last(set, at));
+  const VectorXd a = all.coefficients.tail(static_cast<Index>(own.size()));
+  const double whole = infer::left_of(beside, own, a);
+  const double near = infer::told_apart * infer::told_apart * dictionary.variance(set);
+  /// What columns make of the cause, and their coefficients.
+  const auto made = [&](const infer::Columns& columns, VectorXd& share) {
+    const VectorXd cross = beside.gram(columns, own) * a;
+    share = linear::least_squares(beside.gram(columns, columns), cross);
+    return share.dot(cross);
+  };
+  const auto listed = finding.members();
+  std::vector<std::pair<double, std::size_t>> alone;
+  VectorXd share;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const infer::Columns& columns = dictionary.block(t).columns;
+    if (terms[t].is_pattern() || columns.empty() || std::ranges::find(set, t) != set.end() ||
+        terms[t].is_slip() || std::ranges::find(listed, terms[t].effect()) != listed.end())
+      continue;
+    if (const double part = made(columns, share); part >= least_part * whole)
+      alone.emplace_back(-part, t);
+  }
+  std::ranges::sort(alone);
+  if (alone.size() > of_terms) alone.resize(of_terms);
+  std::vector<std::pair<double, std::array<std::string, 2>>> found;
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Set pair{alone[i].second, alone[j].second};
+      if (terms[pair[0]].effect() == terms[pair[1]].effect()) continue;
+      const double rest = whole - made(dictionary.columns_of(pair), share);
+      if (rest >= near) continue;
+      bool plausible = true;
+      Index from = 0;
+      for (const std::size_t t : pair) {
+        const auto& block = dictionary.block(t);
+        const auto rank = static_cast<Index>(block.columns.size());
+        plausible = plausible && (block.back * share.segment(from, rank)).norm() <= block.largest;
+        from += rank;
+      }
+      if (plausible) found.push_back({rest, {terms[pair[1]].effect(), terms[pair[0]].effect()}});
+    }
+  std::ranges::sort(found);
+  std::vector<std::array<std::string, 2>> out;
+  for (const auto& [rest, pair] : found)
+    if (out.size() < most) out.push_back(pair);
+  return out;
+}
+
+void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Set& found,
+                bool timed, MachineDiagnosis& out) {
+  const MatrixXd columns = dictionary.columns(found);
+  VectorXd left = dictionary.residuals();
+  if (columns.cols() > 0) left -= columns * linear::least_squares(columns, left);
+  const auto freedom = static_cast<double>(dictionary.rows() - dictionary.fitted(found).rank);
+  const double sigma = std::sqrt(left.squaredNorm() / freedom);
+  QualityCheck noise{"noise", false, "no noise is stated: it is estimated from the residuals"};
+  if (fit.problem.noise_stated) {
+    const boost::math::chi_squared chi(freedom);
+    const double below = cdf(chi, left.squaredNorm());
+    noise.found = below < 1e-3 || below > 1.0 - 1e-3;
+    noise.text = fmt::format("the residuals are {:.3g} times the stated noise", sigma);
+  }
+  out.checks.push_back(noise);
+  Index worst = 0;
+  const double most = left.cwiseAbs().maxCoeff(&worst) / sigma;
+  const double p = std::min(
+      1.0, 2.0 * static_cast<double>(left.size()) * cdf(complement(boost::math::normal(), most)));
+  out.checks.push_back(
+      {"outlier", p < 0.01,
+       fmt::format("the largest residual is {:.3g} standard deviations ({}; p {:.2g})", most,
+                   data_row(fit, worst), p)});
+  out.checks.push_back({"times", !timed,
+                        timed ? "every row has its time"
+                              : "the rows have no times: drift and warming up cannot be detected"});
+}
+
+void add_remarks(MachineDiagnosis& out) {
+  for (const MachineFinding& finding : out.findings) {
+    if (!finding.likely_order)
+      out.remarks.push_back(finding.effect() + ": these positions read " + finding.alias +
+                            " alike, so the order is the most likely one, not certain");
+    for (const auto& [one, other] : finding.pairs)
+      out.remarks.push_back(finding.effect() + " is not told from " + one + " and " + other +
+                            " together");
+  }
+  if (std::ranges::any_of(out.unexplained, &MachineUnexplained::may_have_a_name))
+    out.remarks.push_back(
+        "a cause that shares its axis with an unknown pattern may be part of the pattern. It is "
+        "not named, but remains in the model");
+}
 
 MachineFinding finding_of(const infer::Dictionary& dictionary, const std::vector<Term>& terms,
                           const Set& set, std::size_t at, const infer::SearchOptions& options) {
@@ -47,6 +205,56 @@ MachineFinding finding_of(const infer::Dictionary& dictionary, const std::vector
   // Over σ: the caller knows σ and the number of readings.
   out.rms_mm = std::sqrt(infer::left_of(beside, block.columns, a));
   return out;
+}
+
+namespace {
+
+constexpr std::size_t most_blocks = 30;
+
+/// The block of every row: rotary positions in the order in which they came, cut into blocks.
+std::vector<std::size_t> blocks_of(const Problem& problem, std::size_t& count) {
+  using Rotary = std::array<double, 3>;
+  std::vector<Rotary> different;
+  std::vector<std::size_t> place;
+  for (const Row& row : problem.rows) {
+    const Rotary at{row.axes[3], row.axes[4], row.axes[5]};
+    const auto found = std::ranges::find(different, at);
+    place.push_back(static_cast<std::size_t>(found - different.begin()));
+    if (found == different.end()) different.push_back(at);
+  }
+  count = std::min(most_blocks, different.size());
+  for (std::size_t& one : place) one = one * count / different.size();
+  return place;
+}
+
+}  // namespace
+
+void hold_out(const Problem& problem, const MatrixXd& columns, Index base, const VectorXd& readings,
+              MachineDiagnosis& out) {
+  const std::vector<std::size_t> block_of_row = blocks_of(problem, out.blocks);
+  if (out.blocks < 2) return;
+  MatrixXd all(columns.rows(), columns.cols() + 1);
+  all << readings, columns;
+  infer::Columns before(static_cast<std::size_t>(base)),
+      after(static_cast<std::size_t>(columns.cols()));
+  std::iota(before.begin(), before.end(), 1U);
+  std::iota(after.begin(), after.end(), 1U);
+  std::vector<infer::Fold> folds;
+  for (std::size_t block = 0; block < out.blocks; ++block) {
+    std::vector<Index> held;
+    double sigma2 = 0.0;
+    for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+      if (block_of_row[i] != block) continue;
+      const Row& row = problem.rows[i];
+      for (Index k = 0; k < row.equations(); ++k) held.push_back(row.first + k);
+      sigma2 += static_cast<double>(row.equations()) * row.sigma_mm * row.sigma_mm;
+    }
+    const MatrixXd own = all(held, Eigen::all);
+    const auto n = static_cast<double>(held.size());
+    // Over σ here; mm by the mean σ of the block.
+    folds.push_back({linear::gram(own), n, sigma2 / n});
+  }
+  infer::cross_validate(linear::gram(all), folds, before, after, out.gain);
 }
 
 }  // namespace trueaxis::calibrate_detail

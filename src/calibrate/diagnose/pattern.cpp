@@ -13,10 +13,6 @@
 namespace trueaxis::calibrate_detail {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr int most_steps = 24, bump_centres = 24, corners_of_bump = 24;
 
 struct Axis {

@@ -10,7 +10,7 @@ namespace trueaxis::calibrate_detail {
 /// A function of the row, as few columns. It depends on one axis, on two, or on the time.
 struct PatternFunction {
   std::string words;                     ///< "harmonic 5 of C"
-  Eigen::MatrixXd values;                ///< a row of the problem each
+  MatrixXd values;                       ///< a row of the problem each
   std::vector<ErrorFunction> functions;  ///< of one axis alone: as errors, one a column
   std::optional<PatternPlace> place;
   std::string letters;  ///< of the axes that it is a function of; t: of the time

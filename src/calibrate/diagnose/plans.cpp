@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <ranges>
 
@@ -32,7 +31,7 @@ struct Position {
 class Planner {
  public:
   Planner(const Problem& problem, std::span<const MachineMeasurement> data,
-          const ErrorModel& errors, const Eigen::VectorXd& places)
+          const ErrorModel& errors, const VectorXd& places)
       : problem_(problem), data_(data.begin(), data.end()), model_(*problem.machine, errors) {
     for (const Row& row : problem.rows) {
       if (row.kind == MeasurementKind::array) continue;
@@ -233,7 +232,7 @@ std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors,
 }
 
 std::vector<Plan> plans_for(const Problem& problem, std::span<const MachineMeasurement> data,
-                            const ErrorModel& errors, const Eigen::VectorXd& places) {
+                            const ErrorModel& errors, const VectorXd& places) {
   return Planner(problem, data, errors, places).plans();
 }
 

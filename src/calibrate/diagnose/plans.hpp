@@ -17,7 +17,7 @@ struct Plan {
 /// height. AC a grid of five positions of one rotary axis by every 30° of the other. Those that the
 /// machine can do, on the first file of kind ball or bar.
 std::vector<Plan> plans_for(const Problem& problem, std::span<const MachineMeasurement> data,
-                            const ErrorModel& errors, const Eigen::VectorXd& places);
+                            const ErrorModel& errors, const VectorXd& places);
 
 /// B1: a ball on the workpiece's body at a grid of rotary positions and back; nothing for a machine
 /// that cannot. @param noise_mm σ of a reading

@@ -22,7 +22,7 @@ struct PatternPlace {
 /// A hypothesis: columns of the readings, each per mm or rad.
 struct Term {
   MachineEffect of;  ///< of the catalogue; a pattern has its words as the id, and no term
-  Eigen::MatrixXd columns;
+  MatrixXd columns;
   std::vector<ErrorTerm> errors;    ///< of which each column is; empty: no error of the machine
   bool barred = false;              ///< a pattern that an effect makes at these rows
   double tests = 1.0;               ///< how many places of it were tried
@@ -45,8 +45,8 @@ std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
 
 using Set = infer::Dictionary::Set;
 /// Terms as hypotheses after what is always fitted. @param base columns over σ, of any rank
-infer::Dictionary dictionary_of(const std::vector<Term>& terms, const Eigen::MatrixXd& base,
-                                const Eigen::VectorXd& weights, const CalibrationOptions& options);
+infer::Dictionary dictionary_of(const std::vector<Term>& terms, const MatrixXd& base,
+                                const VectorXd& weights, const CalibrationOptions& options);
 
 /// The slip of a target from a row on.
 Term slip_term(const Problem& problem, const Geometry& geometry, const MachineEffect& of,

@@ -9,10 +9,6 @@
 namespace trueaxis::calibrate_detail {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr std::size_t slips_a_target = 16;  // tried in the search, then refined
 
 /// The way in which an axis goes first: that in which it is assumed to have come before.

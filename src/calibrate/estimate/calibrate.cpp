@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "calibrate/estimate/read_out.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
@@ -15,19 +16,12 @@ namespace trueaxis {
 namespace calibrate_detail {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 /// Position and straightness of the axis that an array lies along, over the range of its rows.
 void add_array_unknowns(const MachineMeasurement& file, double largest,
                         std::vector<Unknown>& unknowns) {
   const std::size_t axis = index_of(*file.axis);
-  double low = file.axes.front()[axis], high = low;
-  for (const AxisPositions& at : file.axes) {
-    low = std::min(low, at[axis]);
-    high = std::max(high, at[axis]);
-  }
+  const auto at = [&](const AxisPositions& axes) { return axes[axis]; };
+  const auto [low, high] = std::ranges::minmax(file.axes | std::views::transform(at));
   if (!(high > low)) return;
   for (std::size_t direction = 0; direction < 3; ++direction) {
     const ErrorName name{true, direction, axis};

@@ -2,16 +2,14 @@
 #include "calibrate/estimate/geometry.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "machine/screw.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 /// −∂(observed − predicted)/∂ε of a constant component error, by a forward difference: 1e-3 mm and
 /// 1e-5 rad leave a part of 1e-5 and less of the column.
@@ -34,13 +32,9 @@ void fill_unit_errors(const Problem& problem, const ErrorModel& errors, const Ve
 }  // namespace
 
 AxisRange axis_range(const Problem& problem, AxisName axis) {
-  AxisRange range{problem.rows.front().axes[index_of(axis)],
-                  problem.rows.front().axes[index_of(axis)]};
-  for (const Row& row : problem.rows) {
-    range.low = std::min(range.low, row.axes[index_of(axis)]);
-    range.high = std::max(range.high, row.axes[index_of(axis)]);
-  }
-  return range;
+  const auto at = [&](const Row& row) { return row.axes[index_of(axis)]; };
+  const auto [low, high] = std::ranges::minmax(problem.rows | std::views::transform(at));
+  return {low, high};
 }
 
 VectorXd error_column(const Problem& problem, const Geometry& geometry, const ErrorTerm& error,

@@ -14,25 +14,24 @@ inline constexpr double least_move = 1e-9;   ///< between two rows
 
 /// All that rows and places give the columns of terms.
 struct Geometry {
-  Eigen::MatrixXd unit_errors;  ///< 6 columns an axis of `machine.axes`: E.. of size 1 at every row
-  Eigen::MatrixXd tip_shift;    ///< 3: the tip moved along X Y Z of M
-  Eigen::MatrixXd part_shift;   ///< 3: the part moved along its own X Y Z
-  Eigen::MatrixXd places;       ///< as `Problem::places_jacobian`
+  MatrixXd unit_errors;  ///< 6 columns an axis of `machine.axes`: E.. of size 1 at every row
+  MatrixXd tip_shift;    ///< 3: the tip moved along X Y Z of M
+  MatrixXd part_shift;   ///< 3: the part moved along its own X Y Z
+  MatrixXd places;       ///< as `Problem::places_jacobian`
 };
-Geometry geometry_of(const Problem& problem, const ErrorModel& errors,
-                     const Eigen::VectorXd& places);
+Geometry geometry_of(const Problem& problem, const ErrorModel& errors, const VectorXd& places);
 
 /// Columns times a function of the row.
 template <class Function>
-Eigen::MatrixXd times_rows(const Problem& problem, Eigen::MatrixXd columns, const Function& value) {
+MatrixXd times_rows(const Problem& problem, MatrixXd columns, const Function& value) {
   for (const Row& row : problem.rows) columns.middleRows(row.first, row.equations()) *= value(row);
   return columns;
 }
 
 /// The column of a component error that is a function of the position of an axis, its own unless
 /// said.
-Eigen::VectorXd error_column(const Problem& problem, const Geometry& geometry,
-                             const ErrorTerm& error, std::optional<AxisName> of = {});
+VectorXd error_column(const Problem& problem, const Geometry& geometry, const ErrorTerm& error,
+                      std::optional<AxisName> of = {});
 
 /// The range of an axis over all rows.
 struct AxisRange {

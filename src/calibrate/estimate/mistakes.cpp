@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
+#include <span>
+#include <string>
 
-#include "calibrate/estimate/read_out_mistake.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "math/golden_section.hpp"
+#include "trueaxis/calibration.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -15,10 +17,85 @@ namespace {
 
 using calibrate_detail::fit_tips;
 
-constexpr double far_better = 0.5;    // of the RMS: four times the χ²
-constexpr double well_fitted = 1.4;   // RMS over a stated σ: nothing is looked for
-constexpr double much_fitted = 0.3;   // of the RMS before, where no σ is stated: nothing either
-constexpr double far_too_small = 30;  // times less scatter than is stated, or more
+constexpr double far_too_small = 30.0;  // scatter over the noise that is stated, or its inverse
+constexpr double same_factor = 0.02;    // of a factor between two units
+
+struct Limits {
+  double largest, left;  ///< mm or rad
+};
+Limits limits_of(AxisName axis) {
+  return is_rotary(axis) ? Limits{20.0 * rad_per_deg, 0.5 * rad_per_deg} : Limits{5.0, 0.05};
+}
+
+struct Factor {
+  double of;
+  const char* words;
+};
+
+/// By what `actual` grows with `command`.
+double slope_of(const MachineMeasurement& file) {
+  const std::size_t axis = index_of(*file.axis);
+  const auto n = static_cast<double>(file.rows());
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < file.rows(); ++i)
+    x += file.axes[i][axis] / n, y += file.actual[i] / n;
+  for (std::size_t i = 0; i < file.rows(); ++i) {
+    const double dx = file.axes[i][axis] - x;
+    xx += dx * dx;
+    xy += dx * (file.actual[i] - y);
+  }
+  return xx > 0.0 ? xy / xx : 1.0;
+}
+
+std::string unit_mistake(const MachineMeasurement& file) {
+  static constexpr Factor lengths[] = {{1e3, "actual is in um, or command in m"},
+                                       {1e-3, "actual is in m, or command in um"},
+                                       {25.4, "command is in inch"},
+                                       {1.0 / 25.4, "actual is in inch"}};
+  static constexpr Factor angles[] = {{rad_per_deg, "actual is in radians"},
+                                      {1.0 / rad_per_deg, "command is in radians"}};
+  const std::span<const Factor> factors =
+      is_rotary(*file.axis) ? std::span<const Factor>(angles) : std::span<const Factor>(lengths);
+  const double slope = slope_of(file);
+  if (std::abs(slope + 1.0) < same_factor) return "one of the two columns runs the other way";
+  for (const Factor& factor : factors)
+    if (std::abs(slope / factor.of - 1.0) < same_factor)
+      return std::string(factor.words) + ": write the unit that the numbers have";
+  return "check that both columns belong to this axis and have the units of the header";
+}
+
+/// The mistake that the read-outs of axes most likely have. Columns differ by 5 mm or 5° and more,
+/// as with columns in two units, or their residuals are thirty times the stated noise and more than
+/// axes leave. Empty: none.
+std::string read_out_mistake(std::span<const MachineMeasurement> data, const Calibration& found) {
+  auto read_out = found.read_outs.begin();
+  for (const MachineMeasurement& file : data) {
+    if (file.kind != MeasurementKind::axis || read_out == found.read_outs.end()) continue;
+    const AxisReadOut& one = *read_out++;
+    const bool rotary = is_rotary(one.axis);
+    const double unit = rotary ? rad_per_deg : mm_per_um;
+    const char* const name = rotary ? "deg" : "µm";
+    const Limits limits = limits_of(one.axis);
+    double largest = one.rms_before;
+    if (one.polynomial.size() > 1) largest = std::max(largest, std::abs(one.polynomial[1].value));
+    if (largest > limits.largest)
+      return fmt::format("{}: actual and command of {} differ by {:.3g} {}: {}", file.source,
+                         letter_of(one.axis), largest / unit, name, unit_mistake(file));
+    const double noise = file.noise_mm.value_or(0.0);
+    if (one.rms_after <= std::max(far_too_small * noise, limits.left)) continue;
+    const std::string said =
+        noise > 0.0 ? fmt::format(", and their stated noise is {:.2g} {}", noise / unit, name)
+                    : std::string();
+    return fmt::format("{}: the fit leaves residuals of {:.3g} {} in the read-out of {}{}: {}",
+                       file.source, one.rms_after / unit, name, letter_of(one.axis), said,
+                       unit_mistake(file));
+  }
+  return "";
+}
+
+constexpr double far_better = 0.5;   // of the RMS: four times the χ²
+constexpr double well_fitted = 1.4;  // RMS over a stated σ: nothing is looked for
+constexpr double much_fitted = 0.3;  // of the RMS before, where no σ is stated: nothing either
 // RMS that machines leave once everything is fitted: ten times what the component errors of worn
 // ones do (docs/reference/calibration.md).
 constexpr double largest_left_mm = 0.05;
@@ -186,8 +263,7 @@ class Worthwhile {
 std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
                            const CalibrationOptions& options, const Calibration& found,
                            double left_by_all_mm) {
-  if (const std::string why = calibrate_detail::read_out_mistake(data, found); !why.empty())
-    return why;
+  if (const std::string why = read_out_mistake(data, found); !why.empty()) return why;
   if (found.equations == 0) return "";
   if (found.converged && found.rms_after_mm * far_too_small < found.stated_noise_mm)
     return fmt::format(
@@ -226,6 +302,22 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
       found.stated_noise_mm > 0.0
           ? fmt::format(", and their stated noise is {:.2g} µm", found.stated_noise_mm / mm_per_um)
           : std::string());
+}
+
+std::string implausible(const Calibration& found, const CalibrationOptions& options) {
+  constexpr double far_beyond = 50.0;  // largest plausible sizes: 5 mm, 0.6 degrees
+  for (const CalibratedParameter& p : found.parameters) {
+    const bool angle = p.estimate.unit == "rad";
+    const double most =
+        far_beyond * (angle ? options.largest_angle_rad : options.largest_length_mm);
+    const double least = std::abs(p.estimate.value) - options.coverage_factor * p.estimate.u;
+    if (!(least > most)) continue;
+    return fmt::format(
+        "{} is {:.4g} {}: no machine is so far from its model. Check that the machine file, the "
+        "tool length, and the units and signs of the columns belong to the measurement",
+        p.name, p.estimate.value * edge_factor(p.estimate.unit), angle ? "deg" : "mm");
+  }
+  return "";
 }
 
 }  // namespace trueaxis

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
-#include <span>
 #include <vector>
+
+#include "math/golden_section.hpp"
 
 namespace trueaxis::calibrate_detail {
 
@@ -36,21 +36,11 @@ class PeriodicFit {
   std::size_t smooth_;
 };
 
-/// Where a function of one valley is least (golden section).
+/// Where a function of one valley is least.
 template <class Function>
 double least_of(const Function& f, double low, double high) {
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-  double a = high - ratio * (high - low), b = low + ratio * (high - low), fa = f(a), fb = f(b);
-  for (int step = 0; step < 30; ++step) {
-    if (fa < fb) {
-      high = b, b = a, fb = fa;
-      fa = f(a = high - ratio * (high - low));
-    } else {
-      low = a, a = b, fa = fb;
-      fb = f(b = low + ratio * (high - low));
-    }
-  }
-  return 0.5 * (low + high);
+  const GoldenSection found = golden_section([&](double x) { return -f(x); }, low, high, 30);
+  return 0.5 * (found.low + found.high);
 }
 
 }  // namespace trueaxis::calibrate_detail

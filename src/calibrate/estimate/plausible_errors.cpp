@@ -7,9 +7,6 @@
 namespace trueaxis::calibrate_detail {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 constexpr int last_degree = 3, last_order = 4;
 constexpr double least_travel_mm = 500.0;  // of an axis without limits
 

@@ -39,8 +39,8 @@ std::vector<PlausibleError> plausible_errors(const Problem& problem,
                                              const PlausibleSizes& sizes = {});
 
 /// Columns of the readings per mm or rad of every amount, each of a component error.
-Eigen::MatrixXd amount_columns(const Problem& problem, const Geometry& geometry,
-                               const std::vector<UncertainAmount>& amounts);
+MatrixXd amount_columns(const Problem& problem, const Geometry& geometry,
+                        const std::vector<UncertainAmount>& amounts);
 
 /// Mean square of an amount's function over its range.
 double mean_square(const UncertainAmount& amount);

@@ -18,9 +18,9 @@ struct Target {
   int setup = 0, ball = 0;
   bool line = false;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero(), across[2] = {direction, direction};
-  Eigen::Index first = 0;  ///< of its unknowns among all places
+  Index first = 0;  ///< of its unknowns among all places
 
-  Eigen::Index unknowns() const { return line ? 5 : 3; }
+  Index unknowns() const { return line ? 5 : 3; }
   /// The ball at s; `place` are the target's own unknowns.
   Eigen::Vector3d point(const double* place, double s) const;
   /// Its derivatives, a column an unknown.
@@ -33,9 +33,9 @@ struct Row {
   AxisPositions axes{};
   double tool_length_mm = 0.0, along_mm = 0.0, time_s = 0.0, sigma_mm = 0.0;
   Eigen::Vector3d observed = Eigen::Vector3d::Zero();  ///< ball: the deviation; bar: L first
-  Eigen::Index first = 0;                              ///< of its equations
+  Index first = 0;                                     ///< of its equations
 
-  Eigen::Index equations() const { return kind == MeasurementKind::bar ? 1 : 3; }
+  Index equations() const { return kind == MeasurementKind::bar ? 1 : 3; }
 };
 
 /// Rows of all files of kinds ball, bar and array in order, and what they are compared with.
@@ -43,18 +43,18 @@ struct Problem {
   const Machine* machine = nullptr;
   std::vector<Target> targets;
   std::vector<Row> rows;
-  Eigen::Index equations = 0, places = 0;
+  Index equations = 0, places = 0;
   bool noise_stated = true;  ///< in every file
-  Eigen::VectorXd start;     ///< places from the machine with the errors that were given
-  Eigen::VectorXd weights;   ///< 1/σ of every equation
+  VectorXd start;            ///< places from the machine with the errors that were given
+  VectorXd weights;          ///< 1/σ of every equation
 
   /// Observed − predicted, mm, a row three equations (a bar's one). Eqs. 170, 171.
-  Eigen::VectorXd residuals(const ErrorModel& errors, const Eigen::VectorXd& places) const;
+  VectorXd residuals(const ErrorModel& errors, const VectorXd& places) const;
   /// Derivatives of the prediction by the places. Eq. 172.
-  Eigen::MatrixXd places_jacobian(const ErrorModel& errors, const Eigen::VectorXd& places) const;
+  MatrixXd places_jacobian(const ErrorModel& errors, const VectorXd& places) const;
   /// The same by unknowns of the machine, by central differences.
-  Eigen::MatrixXd jacobian(const ErrorModel& errors, std::span<const Unknown> unknowns,
-                           const Eigen::VectorXd& places) const;
+  MatrixXd jacobian(const ErrorModel& errors, std::span<const Unknown> unknowns,
+                    const VectorXd& places) const;
 };
 
 /// σ of files that state none; what is estimated from the residuals replaces it.

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "calibrate/estimate/plausible_errors.hpp"
 #include "calibrate/estimate/random_effects.hpp"
@@ -13,10 +12,6 @@
 
 namespace trueaxis::calibrate_detail {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double shown = 3.0;  // u of an amount
 

@@ -9,11 +9,11 @@ namespace trueaxis::calibrate_detail {
 /// Component errors that were not fitted, taken into a calibration (Eqs. 210-215): parameters and
 /// errors become those of the regression in which every component error is random at its plausible
 /// size, u and covariance what is then unknown of them. @returns the places
-Eigen::VectorXd take_component_errors(const TipFit& fit, Calibration& out);
+VectorXd take_component_errors(const TipFit& fit, Calibration& out);
 
 /// Columns of something found, and the error of size 1 that each is; none: no error of the machine.
 struct FoundColumns {
-  Eigen::Index count = 0;
+  Index count = 0;
   std::vector<ErrorTerm> errors;
 };
 
@@ -21,7 +21,7 @@ struct FoundColumns {
 /// of all columns: the unknowns per largest size, the places, what was found. What was given of the
 /// same is superseded.
 void state_covariance(const TipFit& fit, std::span<const FoundColumns> found,
-                      const Eigen::MatrixXd& of_columns, ErrorModel& errors);
+                      const MatrixXd& of_columns, ErrorModel& errors);
 
 /// An error of size 1 as an amount.
 UncertainAmount amount_of(const ErrorTerm& unit);

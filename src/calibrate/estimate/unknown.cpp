@@ -2,7 +2,6 @@
 #include "calibrate/estimate/unknown.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -61,7 +60,7 @@ std::vector<Unknown> location_unknowns(const Machine& machine, double largest_le
 }
 
 ErrorModel with(const ErrorModel& given, const std::vector<Unknown>& unknowns,
-                const Eigen::VectorXd& values) {
+                const VectorXd& values) {
   ErrorModel errors = given;
   for (std::size_t j = 0; j < unknowns.size(); ++j) {
     const double value = values[static_cast<Eigen::Index>(j)];

@@ -9,6 +9,10 @@
 
 namespace trueaxis::calibrate_detail {
 
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 /// A number of the machine that is estimated: it multiplies `unit` in the errors.
 struct Unknown {
   std::string name;
@@ -27,6 +31,6 @@ std::vector<Unknown> location_unknowns(const Machine& machine, double largest_le
 
 /// `given` and what was found of each unknown, without zeros.
 ErrorModel with(const ErrorModel& given, const std::vector<Unknown>& unknowns,
-                const Eigen::VectorXd& values);
+                const VectorXd& values);
 
 }  // namespace trueaxis::calibrate_detail

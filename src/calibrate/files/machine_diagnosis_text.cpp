@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "base/text.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "calibrate/files/machine_screen.hpp"
 #include "format/text_layout.hpp"
@@ -17,11 +18,10 @@ std::string finding_text(const MachineFinding& finding) {
                                  layout::um(finding.rms_mm), finding.p_value);
   text += layout::wrapped("  ", finding.cause.consequence);
   if (finding.rivals.empty()) return text;
-  std::string rivals;
-  for (const Rival& rival : finding.rivals)
-    rivals += (rivals.empty() ? "" : ", ") + rival.effect + " (" +
-              layout::probability(rival.probability) + ")";
-  text += layout::wrapped("  not told from ", rivals);
+  const auto with_probability = [](const Rival& rival) {
+    return rival.effect + " (" + layout::probability(rival.probability) + ")";
+  };
+  text += layout::wrapped("  not told from ", word_list(finding.rivals, ", ", with_probability));
   const std::string plan = finding.separate_with ? finding.separate_with->plan : "";
   text += plan.empty() ? "  none of the plans tells them apart\n"
                        : "  plan " + plan + " tells them apart\n";

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/number.hpp"
-#include "correct/control/correction_grid.hpp"
+#include "correct/control/control_table.hpp"
 #include "correct/deviation.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "correct/control/as_read.hpp"
 #include "correct/control/control_table.hpp"
-#include "correct/control/correction_grid.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

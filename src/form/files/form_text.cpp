@@ -40,17 +40,10 @@ std::string cell(const FormValue* one, double k) {
 }
 
 std::string filter_text(const FormOptions& options) {
-  switch (options.filter) {
-    case ProfileFilter::none:
-      return "no filter";
-    case ProfileFilter::gaussian:
-      return fmt::format("Gaussian {:g}-{:g} UPR", options.low_upr, options.high_upr);
-    case ProfileFilter::robust_gaussian:
-      return fmt::format("robust Gaussian {:g}-{:g} UPR", options.low_upr, options.high_upr);
-    case ProfileFilter::spline:
-      return fmt::format("spline {:g}-{:g} UPR", options.low_upr, options.high_upr);
-  }
-  return "";
+  if (options.filter == ProfileFilter::none) return "no filter";
+  constexpr const char* names[] = {"", "Gaussian", "robust Gaussian", "spline"};
+  return fmt::format("{} {:g}-{:g} UPR", names[static_cast<std::size_t>(options.filter)],
+                     options.low_upr, options.high_upr);
 }
 
 std::string heading(const FormResult& result) {

@@ -14,17 +14,13 @@ using fmt::format;
 
 std::string list(const Vector3& v) { return format("[{}, {}, {}]", v[0], v[1], v[2]); }
 
-double at_edge(AxisName axis, double position) {
-  return is_rotary(axis) ? position / rad_per_deg : position;
-}
-
 std::string axis_text(const MachineAxis& axis) {
   std::string text =
       format("\n[axes.{}]\ndirection = {}\n", letter_of(axis.name), list(axis.direction));
   if (is_rotary(axis.name)) text += format("point_mm = {}\n", list(axis.point_mm));
   if (std::isfinite(axis.low) && std::isfinite(axis.high))
     text += format("limits_{} = [{}, {}]\n", is_rotary(axis.name) ? "deg" : "mm",
-                   at_edge(axis.name, axis.low), at_edge(axis.name, axis.high));
+                   axis.low / edge_unit(axis.name), axis.high / edge_unit(axis.name));
   return text;
 }
 
@@ -43,7 +39,7 @@ std::string offset_text(const Machine& machine, std::size_t i) {
   std::string zeros;
   for (const MachineAxis& axis : machine.axes)
     if (const double zero = offset.zero[index_of(axis.name)]; zero != 0.0)
-      add_to_list(zeros, format("{} = {}", letter_of(axis.name), at_edge(axis.name, zero)));
+      add_to_list(zeros, format("{} = {}", letter_of(axis.name), zero / edge_unit(axis.name)));
   return zeros.empty() ? text : text + "zero = {" + zeros + "}\n";
 }
 
@@ -53,7 +49,7 @@ std::string program_text(const Machine& machine) {
   std::string words;
   for (const MachineAxis& axis : machine.axes)
     if (const auto word = machine.start[index_of(axis.name)])
-      add_to_list(words, format("{} = {}", letter_of(axis.name), at_edge(axis.name, *word)));
+      add_to_list(words, format("{} = {}", letter_of(axis.name), *word / edge_unit(axis.name)));
   if (!words.empty()) text += "start = {" + words + "}\n";
   return text + format("\n[compensation]\nmax_rotary_change_deg = {}\n",
                        machine.max_rotary_change_rad / rad_per_deg);

@@ -58,18 +58,6 @@ inline std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// `chain` of either form; what is wrong with it is noted there.
-void read_chain(TomlTable& root, Machine& machine);
-
-/// `[[dh]]`, `part` and `tool` of a D-H file, whose chain is read already, made a zero-position
-/// machine in the frame of the part: joint i turns about, or moves along, the z axis of frame i − 1
-/// with all variables at 0 (Talyan et al., Tables 1 to 3).
-void read_denavit_hartenberg(TomlTable& root, MachineFile& file);
-
-/// `tools`, `workpiece`, `program` and `compensation`: what both forms of a machine's file have.
-/// `mode_needed`: `program.mode` has no default.
-void read_program_parts(TomlTable& root, Machine& machine, bool mode_needed);
-
 /// The table [covariance] of an errors file (machine.md) into `errors`, whose terms give up
 /// the u that it has. Complains of amounts that are unknown or occur twice, of a matrix that is not
 /// a covariance, and of a u that differs from the matrix. Unless `large_errors`, also of one that
