@@ -95,8 +95,8 @@ struct CalibrationOptions {
   ErrorModel errors;  ///< what is known of the machine already; the estimate adds to it
   double largest_length_mm = 0.1;  ///< largest plausible size of a location error
   double largest_angle_rad = 0.2e-3;
-  double coverage_factor = 2.0;
-  int max_orders = 24;  ///< of a period in an axis' read-out
+  double coverage_factor = 2.0;  ///< k of U = k u in the result
+  int max_orders = 24;           ///< of a period in an axis' read-out
 };
 
 enum class NoiseBasis { none, stated, residuals };
@@ -121,6 +121,7 @@ struct Calibration {
   double rms_parameters_mm = 0.0;  ///< with the parameters alone, without component errors
   double noise_mm = 0.0;           ///< σ of one number that u is made of
   NoiseBasis noise_basis = NoiseBasis::none;  ///< what σ was had from
+  double coverage_factor = 2.0;               ///< k of U = k u, as the options have it
   double stated_noise_mm = 0.0;               ///< σ that the files state; 0: one of them does not
 };
 
@@ -134,7 +135,7 @@ struct Calibration {
 Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
                       const CalibrationOptions& options = {});
 
-/// Why a calibration cannot be right: a size that, less its U, is fifty times the largest plausible
+/// Why a calibration cannot be right: a size that, less 2 u, is fifty times the largest plausible
 /// one, as of inches for mm or a wrong tool length. Empty: nothing speaks against it.
 std::string implausible(const Calibration& found, const CalibrationOptions& options);
 

@@ -34,6 +34,7 @@ struct CompensationOptions {
   std::optional<double> arc_tolerance_mm{};
   int decimals = 4, angle_decimals = 5;  ///< of changed words, where the source has not more
   int threads = 0;                       ///< 0: as many as there are; the result is the same
+  double coverage_factor = 2.0;          ///< k of the U that is reported
   bool keep_ends = false;                ///< ProgramCompensation::ends are wanted
   /// @throws ContractViolation
   void validate() const;

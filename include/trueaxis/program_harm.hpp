@@ -30,8 +30,8 @@ struct ProgramHarm {
   std::string file;
   std::size_t blocks = 0;                ///< that cut; of a program without any those that travel
   std::vector<EffectOnProgram> effects;  ///< the largest first
-  LargestInProgram U;  ///< of the tip, k = 2, without the part's datum; without data before any
-  double coverage_factor = 2.0;
+  LargestInProgram U;            ///< of the tip, without the part's datum; without data before any
+  double coverage_factor = 2.0;  ///< k of U, that of the diagnosis
   std::vector<PlanOnProgram> plans;
 };
 

@@ -60,50 +60,88 @@ int exit_code_of_advice(const Diagnosis& diagnosis) {
 }
 
 /// What the tolerance of the job asks of the measurement: its verdict, as `run` would have it.
-void advise_on_tolerance(IdentifiedJob job, const std::string& file) {
-  if (!job.job.coaxiality_tolerance_mm) return;
+JobResult judged(IdentifiedJob job, const std::string& file) {
   job.agreement = hold_together(job);
-  const JobResult result = of_file(file, [&] { return conclude(std::move(job)); });
-  std::cout << "\nTolerance of the job\n" << layout::wrapped("  ", verdict_line(result));
+  return of_file(file, [&] { return conclude(std::move(job)); });
 }
 
-int advise_job(const AdviseArguments& options) {
+/// The diagnosis of every reference, and the verdict on a tolerance.
+Json advice_object(const std::string& job, const JobResult& result, bool with_verdict) {
+  const auto reference = [&](std::size_t i) -> Json {
+    return {{"name", result.job.references[i].name},
+            {"diagnosis", diagnosis_object(*result.diagnoses[i])}};
+  };
+  Json json{{"schema", "trueaxis.advice/1"},
+            {"version", TRUEAXIS_VERSION},
+            {"job", job},
+            {"references", list_of_first(result.diagnoses.size(), reference)},
+            {"verdict", nullptr}};
+  if (with_verdict)
+    json["verdict"] = {{"decision", to_string(result.verdict.decision)},
+                       {"line", verdict_line(result)}};
+  return json;
+}
+
+int advise_machine(const AdviseArguments& options, const std::string& content, Outputs& outputs) {
+  const MachineJob job = read_machine_job_toml(content, options.stream.path);
+  for (const JobInput& input : job.inputs) outputs.reads(input.file);
+  outputs.check();
+  if (options.check)
+    return checked(outputs, "diagnose the machine and propose the next measurement of it");
+  return advise_machine_job(job, options.results, outputs, options.verbose);
+}
+
+int advise_job(const CLI::App& command, AdviseArguments& options) {
+  constexpr const char* in_job = "is for a stream alone: write it into the job";
+  expect_only(command, {"stream", "--false-alarm", "--json", "--force", "--verbose", "--check"},
+              in_job);
   const std::string content = read_file(options.stream.path);
-  if (options.results.asked("--json"))
-    throw InputError(options.stream.path,
-                     "is a job, of which run writes all results: --json is for a stream");
-  if (is_machine_job(content, options.stream.path)) {
-    const MachineJob job = read_machine_job_toml(content, options.stream.path);
-    Outputs outputs;
-    outputs.reads(options.stream.path);
-    if (options.check)
-      return checked(outputs, "diagnose the machine and propose the next measurement of it");
-    return advise_machine_job(job, options.verbose);
-  }
+  const Results& results = options.results;
+  Outputs outputs(results.force);
+  outputs.reads(options.stream.path);
+  const bool machine = is_machine_job(content, options.stream.path);
+  if (machine)
+    expect_none(command, {"--false-alarm"}, in_job);
+  else
+    options.results.say("--json", "trueaxis.advice");
+  results.name_to(outputs);
+  if (machine) return advise_machine(options, content, outputs);
   JobFile file = read_job_toml(content, options.stream.path);
   IdentifiedJob result;
   result.streams = read_streams(file);
   result.job = std::move(file.job);
   for (std::size_t i = 0; i < result.streams.size(); ++i)
     expect_one_surface(result.streams[i], result.job.references[i].fit.surface, RangesAs::keys);
-  if (options.check) {
-    Outputs outputs;
-    outputs.reads(options.stream.path);
-    for (const StreamFile& stream : file.streams) outputs.reads(stream.path);
+  for (const StreamFile& stream : file.streams) outputs.reads(stream.path);
+  outputs.check();
+  if (options.check)
     return checked(outputs, "diagnose every reference and propose the next measurement of it");
-  }
   int worst = done;
+  const bool printed = results.printed();
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     const JobReference& reference = result.job.references[i];
-    std::cout << (i ? "\n" : "") << reference.name << " (" << result.streams[i].source << ")\n";
+    if (!printed)
+      std::cout << (i ? "\n" : "") << reference.name << " (" << result.streams[i].source << ")\n";
     const Diagnosis& diagnosis =
-        result.diagnoses.emplace_back(advise(result.streams[i], reference.fit, options.false_alarm))
+        result.diagnoses
+            .emplace_back(advise(result.streams[i], reference.fit, options.false_alarm, printed))
             .value();
     result.fits.push_back(diagnosis.baseline);
     result.resimulations.emplace_back();
     worst = std::max(worst, exit_code_of_advice(diagnosis));
   }
-  if (worst == done) advise_on_tolerance(std::move(result), file.path);
+  const bool judge = worst == done && result.job.coaxiality_tolerance_mm;
+  JobResult found;
+  if (judge)
+    found = judged(std::move(result), file.path);
+  else
+    static_cast<IdentifiedJob&>(found) = std::move(result);
+  if (judge && !printed)
+    std::cout << "\nTolerance of the job\n" << layout::wrapped("  ", verdict_line(found));
+  results.write(outputs, "--json",
+                [&] { return json_text(advice_object(options.stream.path, found, judge)); });
+  outputs.commit();
+  if (!printed) std::cout << results.line("result ", "--json");
   return worst;
 }
 
@@ -112,11 +150,11 @@ bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
   const bool machine = !options.machine.machine.machine.empty();
   if (!machine && options.data.empty()) throw CLI::RequiredError("stream");
   if (machine) {
-    expect_only(
-        command,
-        {"stream", "--machine", "--errors", "--sign", "--large-errors", "--program", "--json",
-         "--output", "--force", "--false-alarm", "--check", "--verbose", "--noise-um"},
-        "is for a stream: --machine has none");
+    expect_only(command,
+                {"stream", "--machine", "--errors", "--sign", "--large-errors", "--program",
+                 "--json", "--output", "--force", "--false-alarm", "--coverage-factor", "--check",
+                 "--verbose", "--noise-um"},
+                "is for a stream: --machine has none");
     if (!options.data.empty())
       expect_none(command, {"--noise-um"}, "is for a first plan: a measurement states its own");
   } else {
@@ -137,7 +175,7 @@ void add_advise(CLI::App* command, int& exit_code) {
   options->results.add(*command, "-o,--output", "trueaxis.measurement_plan",
                        "--machine: positions of the next measurement (CSV), to be filled in");
   options->results.add(*command, "--json", "trueaxis.machine_diagnosis",
-                       "diagnosis (JSON); - prints it");
+                       "diagnosis, for a job of every reference (JSON); - prints it");
   add_force(*command, options->results.force);
   const CLI::Option* surface = options->association.add_to(*command);
   add_false_alarm(*command, options->false_alarm);
@@ -147,6 +185,7 @@ void add_advise(CLI::App* command, int& exit_code) {
     if (is_of_machine(*command, *options)) {
       options->machine.data = options->data;
       options->machine.false_alarm = options->false_alarm;
+      options->machine.coverage_factor = options->association.fit.coverage_factor;
       options->machine.verbose = options->verbose;
       options->machine.check = options->check;
       options->machine.noise_um = options->association.noise_um;
@@ -155,7 +194,7 @@ void add_advise(CLI::App* command, int& exit_code) {
     }
     options->stream.path = options->data.front();
     if (options->stream.path.ends_with(".toml")) {
-      exit_code = advise_job(*options);
+      exit_code = advise_job(*command, *options);
       return;
     }
     if (surface->count() == 0) throw CLI::RequiredError("--surface");

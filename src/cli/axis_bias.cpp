@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
+#include "cli/results.hpp"
 #include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -19,7 +20,8 @@ namespace {
 
 struct AxisBiasArguments {
   std::string scenario, folder;
-  bool force = false, check = false;
+  Results results;
+  bool check = false;
 };
 
 int execute(const AxisBiasArguments& options) {
@@ -32,13 +34,14 @@ int execute(const AxisBiasArguments& options) {
     hash = content_hash(content);
     if (scenario.cut) throw InputError(path, "needs a part that is probed, not one that is cut");
   }
-  Outputs outputs(options.force);
+  Outputs outputs(options.results.force);
   if (!path.empty()) outputs.reads(path);
   if (!options.folder.empty()) {
     outputs.into(options.folder);
     for (const char* name : {"axis_bias.csv", "axis_bias.json", "axis_bias.md"})
       outputs.may_write_in_folder(name, "trueaxis.axis_bias");
   }
+  options.results.name_to(outputs);
   outputs.check();
   const std::vector<study::AxisBiasCase> cases = study::axis_bias_cases(scenario);
   if (options.check)
@@ -55,9 +58,10 @@ int execute(const AxisBiasArguments& options) {
     outputs.write(outputs.in_folder("axis_bias.csv"), axis_bias_csv(rows));
     outputs.write(outputs.in_folder("axis_bias.json"), axis_bias_json(scenario, rows, hash));
     outputs.write(outputs.in_folder("axis_bias.md"), axis_bias_markdown(rows));
-    outputs.commit();
   }
-  std::cout << axis_bias_text(rows);
+  options.results.write(outputs, "--json", [&] { return axis_bias_json(scenario, rows, hash); });
+  outputs.commit();
+  if (!options.results.printed()) std::cout << axis_bias_text(rows);
   return done;
 }
 
@@ -69,7 +73,8 @@ void add_axis_bias(CLI::App* command, int& exit_code) {
                       "part and plan (TOML, default those of docs/evidence/axis_bias.md)");
   add_place(*command, "-o,--output", options->folder,
             "folder for axis_bias.csv, .json and .md (default none)");
-  add_force(*command, options->force);
+  add_json(*command, options->results, "trueaxis.axis_bias");
+  add_force(*command, options->results.force);
   add_check(*command, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

@@ -26,6 +26,7 @@ struct CalibrateArguments {
   MachineOptions machine;
   std::vector<std::string> data;
   Results results;
+  double coverage_factor = CalibrationOptions{}.coverage_factor;
   bool verbose = false, check = false;
 };
 
@@ -44,6 +45,7 @@ int execute(const CalibrateArguments& options) {
   all_of({[&] { given = options.machine.read_errors_of(file); },
           [&] { data = read_measurements(options.data, file.machine); }});
   calibration.errors = given.errors;
+  calibration.coverage_factor = options.coverage_factor;
   if (options.check) {
     std::size_t rows = 0;
     for (const MachineMeasurement& one : data) rows += one.rows();
@@ -85,6 +87,7 @@ void add_calibrate(CLI::App* command, int& exit_code) {
   results.add(*command, "-o,--output", "trueaxis.errors", "errors, those given and found (TOML)")
       ->required();
   results.add(*command, "--json", "trueaxis.calibration", "result (JSON); - prints it");
+  add_coverage_factor(*command, options->coverage_factor);
   add_force(*command, options->results.force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);

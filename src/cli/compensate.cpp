@@ -92,7 +92,7 @@ int execute(const CompensateArguments& options) {
   if (worse) throw Refusal(options.program + ": " + worse_text(result, task));
   if (results.printed()) return done;
   if (options.verbose)
-    std::cout << compensation_text(result) << notes_screen(of_files.remarks);
+    std::cout << compensation_text(result, task) << notes_screen(of_files.remarks);
   else
     print_screen(with_notes(compensation_screen(result, task), of_files.remarks));
   std::cout << results.line("program ", "--output") << results.line("result  ", "--json");
@@ -114,6 +114,7 @@ void add_accuracy(CLI::App& command, CompensateArguments& options) {
              "decimals of changed X Y Z, two more under G20 (default 4)");
   add_option(command, "--angle-decimals", options.compensation.angle_decimals, CLI::Range(0, 15),
              "decimals of changed A B C (default 5)");
+  add_coverage_factor(command, options.compensation.coverage_factor);
   add_threads(command, options.compensation.threads);
 }
 

@@ -22,6 +22,7 @@ void add_machine_diagnose(CLI::App* command, int& exit_code) {
       ->required();
   run.add_to(*command)->required();
   add_false_alarm(*command, run.false_alarm);
+  add_coverage_factor(*command, run.coverage_factor);
   results.add(*command, "-o,--output", "trueaxis.errors", "errors, those given and found (TOML)");
   results.add(*command, "--json", "trueaxis.machine_diagnosis", "result (JSON); - prints it");
   results.add(*command, "--report", "trueaxis.machine_report", "report page (HTML)");

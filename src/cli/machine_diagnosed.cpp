@@ -52,6 +52,13 @@ Read read_of(const MachineDiagnosed& run, Outputs& outputs) {
   return read;
 }
 
+/// The harm with the hash of the program it was weighed on.
+Json weighed_object(const ProgramHarm& harm, const std::string& program) {
+  Json object = harm_object(harm);
+  object["hash"] = content_hash(program);
+  return object;
+}
+
 /// @throws Refusal of what cannot be right
 Said said_of(const MachineDiagnosed& run, const Read& read) {
   const Waiting waiting(run.data.empty() ? "plans of a measurement" : "diagnosis of the machine");
@@ -59,6 +66,7 @@ Said said_of(const MachineDiagnosed& run, const Read& read) {
   const Machine& machine = read.file.machine;
   MachineDiagnoseOptions options;
   options.calibration.errors = read.given.errors;
+  options.calibration.coverage_factor = run.coverage_factor;
   options.false_alarm = run.false_alarm;
   options.covariances = !run.program.empty();
   if (run.noise_um > 0.0) options.planned_noise_mm = run.noise_um * mm_per_um;
@@ -73,8 +81,7 @@ Said said_of(const MachineDiagnosed& run, const Read& read) {
                            read.given.remarks.end());
   if (run.program.empty() || !out.found.baseline.converged) return out;
   out.harm = weigh_on_program(machine, out.found, read.program, run.program);
-  out.program = harm_object(*out.harm);
-  out.program["hash"] = content_hash(read.program);
+  out.program = weighed_object(*out.harm, read.program);
   return out;
 }
 
@@ -116,9 +123,10 @@ std::string would_do(const MachineDiagnosed& run, const Read& read) {
   return text + (run.program.empty() ? "" : ", weigh what is found on " + run.program);
 }
 
-void write_json(const Results& results, Outputs& outputs, const Said& said, const Read& read) {
+void write_json(const Results& results, Outputs& outputs, const Said& said,
+                const Machine& machine) {
   results.write(outputs, "--json", [&] {
-    Json object = machine_diagnosis_object(said.found, read.file.machine);
+    Json object = machine_diagnosis_object(said.found, machine);
     if (said.harm) object["program"] = said.program;
     return json_text(object);
   });
@@ -161,7 +169,7 @@ int MachineDiagnosed::diagnose(const Results& results) const {
   if (check) return checked(outputs, would_do(*this, read));
   const Said said = said_of(*this, read);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
-  write_json(results, outputs, said, read);
+  write_json(results, outputs, said, read.file.machine);
   results.write(outputs, "--output",
                 [&] { return errors_toml(said.found.errors, &read.file.machine); });
   results.write(outputs, "--report", [&] {
@@ -189,7 +197,7 @@ int MachineDiagnosed::advise(const Results& results) const {
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
   if (results.asked("--output") && said.found.next_plan.empty())
     throw Refusal("no plan shows or separates anything more: there are no positions to write");
-  write_json(results, outputs, said, read);
+  write_json(results, outputs, said, read.file.machine);
   results.write(outputs, "--output",
                 [&] { return measurement_plan_csv(said.found, read.file.machine); });
   outputs.commit();
@@ -206,22 +214,29 @@ void expect_one_stream(const CLI::App& command, std::size_t streams) {
               "is for a machine: name it with --machine");
 }
 
-int advise_machine_job(const MachineJob& job, bool verbose) {
+int advise_machine_job(const MachineJob& job, const Results& results, Outputs& outputs,
+                       bool verbose) {
   MachineDiagnoseOptions options;
   options.calibration.errors = job.known;
   options.false_alarm = job.false_alarm;
   options.covariances = job.program.has_value();
-  MachineDiagnosis found = diagnose_machine(job.machine, job.data, options);
+  Said said{diagnose_machine(job.machine, job.data, options), std::nullopt, nullptr};
+  MachineDiagnosis& found = said.found;
   expect_no_mistake(job.machine, job.data, options.calibration, found.baseline,
                     found.gain.rms_after_mm);
   if (!found.baseline.converged) {
     std::cerr << job.path << ": not converged: " << found.baseline.message << '\n';
     return numerical;
   }
-  std::optional<ProgramHarm> harm;
-  if (job.program)
-    harm = weigh_on_program(job.machine, found, job.program->text, job.program->file);
-  say_advice(found, harm, verbose);
+  if (job.program) {
+    said.harm = weigh_on_program(job.machine, found, job.program->text, job.program->file);
+    said.program = weighed_object(*said.harm, job.program->text);
+  }
+  write_json(results, outputs, said, job.machine);
+  outputs.commit();
+  if (results.printed()) return done;
+  say_advice(found, said.harm, verbose);
+  std::cout << results.line("result ", "--json");
   return done;
 }
 

@@ -16,6 +16,7 @@ struct MachineDiagnosed {
   std::vector<std::string> data;  ///< measurements; none: a plan before any
   std::string program;            ///< a part on which the harm is weighed
   double false_alarm = 0.01;
+  double coverage_factor = 2.0;
   double noise_um = -1.0;  ///< of a first plan's readings; below 0: as usual
   bool verbose = false, check = false;
 
@@ -32,6 +33,8 @@ struct MachineDiagnosed {
 void expect_one_stream(const CLI::App& command, std::size_t streams);
 
 /// The same of a machine's job: its measurements, what is known, and its program if it has one.
-int advise_machine_job(const MachineJob& job, bool verbose);
+/// @param outputs checked
+int advise_machine_job(const MachineJob& job, const Results& results, Outputs& outputs,
+                       bool verbose);
 
 }  // namespace trueaxis::cli

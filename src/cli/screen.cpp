@@ -36,16 +36,27 @@ const char* colour_of(const std::string& line) {
   return "\x1b[1m";
 }
 
-/// Blanks between a number and its unit, and about ±, as a sign that no line is broken at; back
+/// Blanks between a number and its unit, about ± and =, as a sign that no line is broken at; back
 /// again where it is.
 constexpr char bound = '\x1f';
 
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
 std::string with_units_bound(std::string text) {
-  for (const char* const unit : {"µm", "mm", "µrad", "mrad", "deg", "rpm", "min", "Hz", "±"})
-    for (std::size_t at = text.find(unit); at != std::string::npos; at = text.find(unit, at + 1))
-      if (at > 1 && text[at - 1] == ' ' &&
-          (std::isdigit(static_cast<unsigned char>(text[at - 2])) != 0))
+  for (const std::string_view unit :
+       {"µm", "mm", "µrad", "mrad", "nm", "deg", "rpm", "min", "Hz", "ms", "s", "%", "°", "UPR"})
+    for (std::size_t at = text.find(unit); at != std::string::npos; at = text.find(unit, at + 1)) {
+      const std::size_t end = at + unit.size();
+      if (at > 1 && text[at - 1] == ' ' && is_digit(text[at - 2]) &&
+          (end == text.size() || !is_letter(text[end])))
         text[at - 1] = bound;
+    }
+  for (const std::string_view sign : {" ± ", " = "})
+    for (std::size_t at = text.find(sign); at != std::string::npos; at = text.find(sign, at + 1)) {
+      text[at] = bound;
+      text[at + sign.size() - 1] = bound;
+    }
   for (std::size_t at = text.find("± "); at != std::string::npos; at = text.find("± ", at + 1))
     text[at + std::string_view("±").size()] = bound;
   return text;

@@ -18,17 +18,20 @@ struct SetupCommand {
   const char* file;
   /// Reads the file and finds the set-up, its frames with so many decimals.
   SetupResult (*solve)(const std::string& path, int decimals);
+  bool has_u;  ///< its file may state u
 };
 
 struct SetupArguments {
   std::string path;
   Results results;
   int decimals = 6;
+  double coverage_factor = 2.0;
   bool verbose = false, check = false;
 };
 
 int execute(const SetupArguments& options, const SetupCommand& which) {
-  const SetupResult result = which.solve(options.path, options.decimals);
+  SetupResult result = which.solve(options.path, options.decimals);
+  result.coverage_factor = options.coverage_factor;
   const Results& results = options.results;
   Outputs outputs(results.force);
   for (const SetupSource& source : result.sources) outputs.reads(source.file);
@@ -62,6 +65,7 @@ void add_setup_command(CLI::App* command, const SetupCommand& which, int& exit_c
   add_option(*command, "--decimals", options->decimals,
              CLI::Range(least_frame_decimals, most_frame_decimals),
              "decimals of mm and degrees in the frames of controls (default 6)");
+  if (which.has_u) add_coverage_factor(*command, options->coverage_factor);
   add_force(*command, options->results.force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
@@ -75,7 +79,8 @@ void add_setup_locators(CLI::App* command, int& exit_code) {
                     {"locators: ideal and measured (TOML)",
                      [](const std::string& path, int decimals) {
                        return result_of(read_locate_toml(path), decimals);
-                     }},
+                     },
+                     true},
                     exit_code);
 }
 
@@ -84,7 +89,8 @@ void add_setup_datums(CLI::App* command, int& exit_code) {
                     {"nine datum errors, or points of the datums (TOML)",
                      [](const std::string& path, int decimals) {
                        return result_of(read_datum_toml(path), decimals);
-                     }},
+                     },
+                     false},
                     exit_code);
 }
 

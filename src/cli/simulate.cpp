@@ -28,6 +28,20 @@ void check_outputs(Outputs& outputs, const SimulateOptions& options) {
   outputs.check();
 }
 
+/// The stream, and what else is asked for of a scenario.
+void write_probed(const ProbeStream& stream, const lathe::Scenario& scenario, Outputs& outputs,
+                  const SimulateOptions& options, const lathe::Truth* truth = nullptr) {
+  const Results& results = options.results;
+  const std::string& place = results["--output"];
+  write_stream_csv(stream, outputs.open(place));
+  if (truth != nullptr) results.write(outputs, "--truth", [&] { return truth_json(*truth); });
+  results.write(outputs, "--json",
+                [&] { return simulation_json(outputs, place, stream.size(), scenario.seed); });
+  outputs.commit();
+  if (!results.printed())
+    std::cout << place << ": " << stream.size() << " readings, seed " << scenario.seed << '\n';
+}
+
 /// The part is cut with the table first, then probed as the scenario plans.
 void simulate_cut(const lathe::Scenario& scenario, const SimulateOptions& options) {
   Outputs outputs(options.results.force);
@@ -49,9 +63,8 @@ void simulate_cut(const lathe::Scenario& scenario, const SimulateOptions& option
   }
   const Waiting waiting("cut and probing of " + options.scenario);
   const lathe::CutPart part(program, table);
-  write_stream_csv(lathe::probe_cut(part, scenario.plan, scenario.noise, scenario.seed),
-                   outputs.open(options.results["--output"]));
-  outputs.commit();
+  write_probed(lathe::probe_cut(part, scenario.plan, scenario.noise, scenario.seed), scenario,
+               outputs, options);
 }
 
 /// A scenario of a machine of several axes has a command of its own; here until the next release.
@@ -70,7 +83,7 @@ int execute(SimulateOptions& options) {
   if (machine_scenario_kind(options.scenario) != MachineScenarioKind::none)
     return forwarded(options);
   if (!results.asked("--output")) throw CLI::RequiredError("--output");
-  if (results.asked("--json")) throw CLI::ValidationError("--json", "needs --from");
+  options.results.say("--json", "trueaxis.simulation");
   lathe::Scenario scenario = read_scenario_toml(options.scenario);
   if (options.seed) scenario.seed = *options.seed;
   if (scenario.cut) {
@@ -87,12 +100,7 @@ int execute(SimulateOptions& options) {
   std::optional<Waiting> waiting("probing of " + options.scenario);
   const lathe::Simulation simulation = lathe::simulate_with_truth(scenario);
   waiting.reset();
-  write_stream_csv(simulation.stream, outputs.open(results["--output"]));
-  results.write(outputs, "--truth", [&] { return truth_json(simulation.truth); });
-  outputs.commit();
-  if (results["--output"] != "-")
-    std::cout << results["--output"] << ": " << simulation.stream.size() << " readings, seed "
-              << scenario.seed << '\n';
+  write_probed(simulation.stream, scenario, outputs, options, &simulation.truth);
   return done;
 }
 
@@ -128,7 +136,8 @@ void add_simulate(CLI::App* command, int& exit_code) {
   compare->excludes(output);
   results.add(*command, "--truth", "trueaxis.truth", "true values of the virtual lathe (JSON)")
       ->needs(output);
-  results.add(*command, "--json", "trueaxis.comparison", "comparison (JSON); - prints it");
+  results.add(*command, "--json", "trueaxis.comparison",
+              "comparison with --from, or seed and number of readings (JSON); - prints it");
   add_force(*command, results.force);
   add_check(*command, options->check);
   command->callback([options, &exit_code] {

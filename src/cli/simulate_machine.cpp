@@ -19,6 +19,7 @@ namespace {
 int simulate_measurement(SimulateOptions& options) {
   Results& results = options.results;
   results.say("--output", "trueaxis.measurement");
+  results.say("--json", "trueaxis.simulation");
   MeasurementScenario scenario = read_measurement_toml(options.scenario);
   if (options.seed) scenario.plan.seed = *options.seed;
   Outputs outputs(results.force);
@@ -31,6 +32,9 @@ int simulate_measurement(SimulateOptions& options) {
   const auto rows =
       virtual_machine::measure(scenario.of.machine, scenario.of.errors, scenario.plan);
   outputs.write(results["--output"], measurement_csv(scenario.of.machine, scenario.plan, rows));
+  results.write(outputs, "--json", [&] {
+    return simulation_json(outputs, results["--output"], rows.size(), scenario.plan.seed);
+  });
   outputs.commit();
   if (!results.printed()) {
     std::cout << results["--output"] << ": " << rows.size() << " rows, seed " << scenario.plan.seed
@@ -72,8 +76,6 @@ int simulate_machine(SimulateOptions& options) {
     throw InputError(path, "has no [machine]: a lathe is for trueaxis simulate");
   if (cuts && options.seed) throw InputError(path, "a cut has no noise: leave --seed out");
   if (!cuts && !options.results.asked("--output")) throw CLI::RequiredError("--output");
-  if (!cuts && options.results.asked("--json"))
-    throw CLI::ValidationError("--json", "needs a scenario with [machine] and [cut]");
   if (!cuts && !options.program.empty())
     throw InputError(path, "--program needs a scenario with [machine] and [cut]");
   return cuts ? simulate_cut(options) : simulate_measurement(options);
@@ -90,7 +92,8 @@ void add_machine_simulate(CLI::App* command, int& exit_code) {
   command->add_option("--seed", options->seed, "seed of the noise (default the scenario's)");
   results.add(*command, "-o,--output", "trueaxis.measurement",
               "measurement, or path of the tip in a cut (CSV); - prints it");
-  results.add(*command, "--json", "trueaxis.cut", "judgement of a cut (JSON); - prints it");
+  results.add(*command, "--json", "trueaxis.cut",
+              "judgement of a cut, or seed and number of rows (JSON); - prints it");
   add_force(*command, results.force);
   add_check(*command, options->check);
   command->callback([options, &exit_code] { exit_code = simulate_machine(*options); });

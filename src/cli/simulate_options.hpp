@@ -7,6 +7,9 @@
 
 #include "cli/results.hpp"
 #include "cli/stream_options.hpp"
+#include "format/file.hpp"
+#include "format/json.hpp"
+#include "format/outputs.hpp"
 
 namespace trueaxis::cli {
 
@@ -19,6 +22,23 @@ struct SimulateOptions {
   double ball_radius_mm = 0.0;
   bool before = false, noise_free = false, compare = false, check = false;
 };
+
+/// Schema trueaxis.simulation/1: what was written, and from what. A stream or a measurement is a
+/// file of its own.
+/// @param rows readings of a stream, rows of a measurement
+inline std::string simulation_json(const Outputs& outputs, const std::string& place,
+                                   std::size_t rows, std::uint64_t seed) {
+  return json_text(
+      {{"schema", "trueaxis.simulation/1"},
+       {"version", TRUEAXIS_VERSION},
+       {"inputs", list_of(outputs.inputs(),
+                          [](const std::string& path) -> Json {
+                            return {{"file", path}, {"hash", content_hash(read_file(path))}};
+                          })},
+       {"output", place},
+       {"rows", rows},
+       {"seed", seed}});
+}
 
 /// `simulate --from DIAGNOSIS`.
 int simulate_from(SimulateOptions& options);

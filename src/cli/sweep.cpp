@@ -13,25 +13,28 @@ namespace trueaxis::cli {
 void add_sweep(CLI::App* command, int& exit_code) {
   struct Options {
     std::string sweep, folder;
+    Results results;
     int threads = 0;
-    bool force = false, check = false;
+    bool check = false;
   };
   auto options = std::make_shared<Options>();
   command->add_option("sweep", options->sweep, "sweep (TOML)")->required();
   add_place(*command, "-o,--output", options->folder,
             "folder for results, report and journal (default none: nothing is kept)");
-  add_force(*command, options->force);
+  add_json(*command, options->results, "trueaxis.sweep");
+  add_force(*command, options->results.force);
   add_check(*command, options->check);
   add_threads(*command, options->threads);
   command->callback([options, &exit_code] {
     const study::PublishedSweep file = read_published_sweep(options->sweep);
     if (options->check) {
-      exit_code = check_sweep(file, options->folder, options->force);
+      exit_code = check_sweep(file, options->folder, options->results);
       return;
     }
-    run_sweep(file, options->folder, options->force, [&](const auto& blocks, const auto& finished) {
-      study::run_blocks(file.sweep, blocks, options->threads, finished);
-    });
+    run_sweep(file, options->folder, options->results,
+              [&](const auto& blocks, const auto& finished) {
+                study::run_blocks(file.sweep, blocks, options->threads, finished);
+              });
     exit_code = done;
   });
 }

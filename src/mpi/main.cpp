@@ -32,7 +32,7 @@ extern "C" void say_how_to_go_on(int) {
 
 struct Options {
   std::string sweep, folder;
-  bool force = false;
+  cli::Results results;
 };
 
 int lead(const Options& options) {
@@ -40,7 +40,7 @@ int lead(const Options& options) {
   const int code = cli::guarded([&] {
     const study::PublishedSweep file = read_published_sweep(options.sweep);
     const study::Sweep& sweep = file.sweep;
-    cli::run_sweep(file, options.folder, options.force,
+    cli::run_sweep(file, options.folder, options.results,
                    [&](const auto& blocks, const auto& finished) {
                      agree_on(sweep.input_hash);
                      agreed = working = true;
@@ -78,7 +78,8 @@ int run(int argc, char** argv, int rank) {
   command->add_option("-o,--output", options.folder, "folder of the results and the journal")
       ->required()
       ->check(cli::a_place());
-  cli::add_force(*command, options.force);
+  cli::add_json(*command, options.results, "trueaxis.sweep");
+  cli::add_force(*command, options.results.force);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

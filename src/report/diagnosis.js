@@ -23,11 +23,11 @@ const minutes = (plan) => `${tick(Number(plan.minutes.toPrecision(2)))}${nbsp}mi
 function measurementWords(plan) {
   if (!plan) return null;
   if (!plan.plan) return `No plan does it${plan.why_not ? `: ${plan.why_not}` : ''}.`;
-  return `${plan.what || data.words.measurements[plan.plan]}: probability of the right name ${chance(plan.power_before)} → ${chance(plan.power ?? plan.power_after)}, ${minutes(plan)}${otherPlans(plan)}.`;
+  return `${plan.what || data.words.measurements[plan.plan]}: probability of the right name ${probabilityOf(plan.power_before)} → ${probabilityOf(plan.power ?? plan.power_after)}, ${minutes(plan)}${otherPlans(plan)}.`;
 }
 
 function otherPlans({others = []}) {
-  return others.map((o) => `; or ${o.what || data.words.measurements[o.plan]} (→ ${chance(o.power)}, ${minutes(o)})`).join('');
+  return others.map((o) => `; or ${o.what || data.words.measurements[o.plan]} (→ ${probabilityOf(o.power)}, ${minutes(o)})`).join('');
 }
 
 function findingCard(finding, number, k, titles, face) {
@@ -48,7 +48,7 @@ function findingsBlock({findings, unexplained, titles, options: {coverage_factor
   const cards = findings.map((f, i) => findingCard(f, i + 1, k, titles, face));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'},
     element('h4', {}, `Unexplained: ${u.seen}`), facts([['Amplitude', estimated(u.amplitude, k)]]),
-    paragraph('No catalogued cause explains it. It stays in the model as it is, so that the axis is protected.', 'quiet'))));
+    paragraph('No catalogued cause explains it. The final fit includes it, so that it does not move the axis.', 'quiet'))));
   return block('Causes, the most harmful first', paragraph(`± is U = k u, k = ${tick(k)}.`, 'quiet'), element('div', {class: 'cards'}, cards));
 }
 
@@ -69,19 +69,19 @@ function gainFacts({gain, options: {coverage_factor: k}}, face) {
   ]);
 }
 
-const axisNames = {stated: ['stated', 'the average over what may have caused the readings'], named: ['named', 'were all causes those that are named'], ideal: ['ideal fit', 'were there no cause']};
+const axisNames = {stated: ['final axis', 'the average over the possible causes'], named: ['named causes', 'if every named cause is the right one'], ideal: ['ideal fit', 'without any cause']};
 
 function shareWords({effect, instead_of: instead, probability, axis_shift: shift}, k) {
   const [name, other] = [effect, instead].map((id) => id ? worded(id) : '');
   const what = !effect ? `no ${other} at all` : instead ? `${name} instead of ${other}` : `${name}, too small to be found,`;
-  return `${what} (probability ${significant(probability, 2)}) would move it by ${estimated(shift, k)}`;
+  return `${what} (probability ${significant(probability, 2)}) would move the axis by ${estimated(shift, k)}`;
 }
 
 /** For a face the named model stays; what the others would make of its tilt is in its U. */
 function faceAxisBlock({shares, options: {coverage_factor: k}}) {
   const telling = shares.filter((s) => isNumber(s.axis_shift.value) && s.axis_shift.value > 0 && s.probability >= 0.01).slice(0, 5);
   if (!telling.length) return null;
-  return block('The axis', paragraph('That of the named model, at the outer end of what was probed. What else may have caused the readings is in its U:', 'quiet'),
+  return block('The axis', paragraph('This is the axis of the named causes, at the outer end of the probed length. Its U includes other possible causes:', 'quiet'),
     element('ul', {}, telling.map((s) => element('li', {}, shareWords(s, k)))));
 }
 
@@ -93,12 +93,12 @@ function axesBlock({verdict, axes, shares, axis_of_cut: cut, options: {coverage_
   const noted = (text, note) => element('span', {}, text, element('small', {}, note));
   const place = ({x, y, u}) => noted(`(${micrometres(x, u).replace(`${nbsp}µm`, '')}, ${micrometres(y, u).replace(`${nbsp}µm`, '')})${nbsp}µm`, `± ${uncertainty(k * u, 'mm')}`);
   const rows = Object.entries(axisNames).filter(([key]) => axes[key].length && !(ideal && key === 'named'))
-    .map(([key, [name, meaning]]) => [noted(name, ideal && key === 'stated' ? 'that of the ideal fit, with what may hide in the readings' : meaning), ...axes[key].map(place)]);
-  const words = ideal ? 'Nothing was found, so the axis that is stated is that of the ideal fit. Its U holds what effects too small to be found may do to it.'
+    .map(([key, [name, meaning]]) => [noted(name, ideal && key === 'stated' ? 'that of the ideal fit; its U includes causes that may hide in the readings' : meaning), ...axes[key].map(place)]);
+  const words = ideal ? 'No cause was found, so the final axis is that of the ideal fit. Its U includes causes that are too small to be found.'
     : 'The final axis is an average over the possible causes, each weighted by its probability. Its U contains what the data cannot decide.';
-  return block('The axis', paragraph(`${words}${!cut ? '' : cut === 'stated' ? ' The correction takes the axis that is stated.' : ` The job asks for the ${cut} axis, and the correction takes that.`}`),
+  return block('The axis', paragraph(`${words}${!cut ? '' : cut === 'stated' ? ' The correction uses the final axis.' : ` The correction uses the ${cut} axis, as the job asks.`}`),
     table(`x and y of the axis; ± is U = k u, k = ${tick(k)}`, ['Axis', ...axes.stated.map(({z}) => `at Z = ${millimetres(z, 2)}`)], rows),
-    shares.length ? paragraph(ideal ? 'What widens its U:' : 'What moves it from the named axis, or widens its U:') : null,
+    shares.length ? paragraph(ideal ? 'What widens its U:' : 'What moves it from the axis of the named causes, or widens its U:') : null,
     shares.length ? element('ul', {}, shares.map((s) => element('li', {}, shareWords(s, k)))) : null);
 }
 
@@ -153,10 +153,10 @@ function notObservableTable({not_observable: all, titles}) {
   const isHarmless = (n) => isNumber(n.axis_bias_typical?.value) && n.axis_bias_typical.value < harmlessMm;
   const list = all.filter((n) => !isHarmless(n)), harmless = all.filter(isHarmless);
   const rest = harmless.length
-    ? paragraph(`Unseen too, but shifting the axis by less than 0.01 µm: ${harmless.map((n) => worded(n.effect)).join('; ')}.`, 'quiet') : null;
+    ? paragraph(`Also hidden, but without effect on the axis (below 0.01 µm): ${harmless.map((n) => worded(n.effect)).join('; ')}.`, 'quiet') : null;
   if (!list.length) return block('What these readings cannot show', rest);
-  return block('What these readings cannot show', table('Effects that would stay hidden at their typical size, and what they would do to the axis',
-    ['Effect', 'Why', 'Shown by', 'Axis shift', 'Seen from'], list.map((n) => [
+  return block('What these readings cannot show', table('Causes that would stay hidden at their typical size, and what they would do to the axis',
+    ['Cause', 'Why', 'Shown by', 'Axis shift', 'Smallest size found'], list.map((n) => [
       titled(titles, n.effect), worded(n.why),
       n.separate_with?.plan ? n.separate_with.what || data.words.measurements[n.separate_with.plan] : '–',
       axisBiasUnit(n.axis_bias_per_unit), seenFrom(n)]), 3), rest);
@@ -173,15 +173,15 @@ function noiseBlock({noise, checks, remarks, titles, options: {coverage_factor: 
   if (noise.gaps.length) list.push(['Gaps', noise.gaps.join('; ')]);
   const found = checks.filter((check) => check.found);
   return block('Noise and quality of the data', facts(list), noise.note ? paragraph(noise.note, 'quiet') : null,
-    found.length ? table('Checks that found something', ['Check', 'What was seen'],
+    found.length ? table('Checks that found something', ['Check', 'Result'],
       found.map((check) => [titled(titles, check.effect), check.text]), 2)
       : paragraph('No check of the data found anything.', 'quiet'),
-    ...remarks.map((remark) => paragraph(`Not an effect: ${remark}.`)));
+    ...remarks.map((remark) => paragraph(`Not a cause: ${remark}.`)));
 }
 
 function plansTable(plans) {
   const rows = feasible(plans).map((plan) => [plan.what || data.words.measurements[plan.plan],
-    `${chance(plan.power_before)} → ${chance(plan.power)}`, minutes(plan)]);
+    `${probabilityOf(plan.power_before)} → ${probabilityOf(plan.power)}`, minutes(plan)]);
   return rows.length ? table('The measurements, the best first', ['Measurement', 'Right name', 'Time'], rows) : null;
 }
 
@@ -197,10 +197,10 @@ function nextBlock({next_measurement: next, plans}) {
 /** What was seen, each with its causes, their probabilities and what follows: the page's short form of the diagnosis. */
 function seenList({findings, unexplained, consequences = {}, options: {coverage_factor: k}}, face) {
   const most = 3;
-  const cause = ({effect, probability}, alone) => element('li', {}, joined(`${worded(effect)}${alone ? '' : ` (${chance(probability)})`}`), consequences[effect] ? `: ${consequences[effect]}` : '');
+  const cause = ({effect, probability}, alone) => element('li', {}, joined(`${worded(effect)}${alone ? '' : ` (probability ${probabilityOf(probability)})`}`), consequences[effect] ? `: ${consequences[effect]}` : '');
   const items = findings.map((f) => {
     const all = membersOf(f), {axis_shift: shift, cosmetic} = f.axis_bias;
-    return element('li', {}, element('strong', {}, sentence(f.seen)), cosmetic ? ` Without effect on the ${face ? 'run-out' : 'coaxiality'}.` : isNumber(shift?.value) ? joined(` Left out it moves the ${face ? 'tilt' : 'axis'} by ${estimated(shift, k)}.`) : '',
+    return element('li', {}, element('strong', {}, sentence(f.seen)), cosmetic ? ` Without effect on the ${face ? 'run-out' : 'coaxiality'}.` : isNumber(shift?.value) ? joined(` If ignored, it moves the ${face ? 'tilt' : 'axis'} by ${estimated(shift, k)}.`) : '',
       element('ul', {}, all.slice(0, most).map((one) => cause(one, all.length === 1)), all.length > most ? element('li', {}, `or ${all.length - most} more, less likely`) : null));
   });
   unexplained.forEach((u) => items.push(element('li', {}, element('strong', {}, sentence(u.seen)))));

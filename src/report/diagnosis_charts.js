@@ -119,5 +119,5 @@ function plansChart(plans) {
     series: [bars('with the data at hand', 'power_before', colours.grey), bars('with the measurement added', 'power', colours.series[2])],
   });
   return figure({caption: 'What each measurement would do, as predicted from its geometry and the noise found here.',
-    description: `Probability of the right name with each measurement: ${shown.map((plan) => `${plan.what} ${chance(plan.power_before)}, then ${chance(plan.power)}`).join('; ')}.`, size: 'short', renderer: 'svg', build, height: (width) => 100 + (width < 480 ? 70 : 46) * shown.length});
+    description: `Probability of the right name with each measurement: ${shown.map((plan) => `${plan.what} ${probabilityOf(plan.power_before)}, then ${probabilityOf(plan.power)}`).join('; ')}.`, size: 'short', renderer: 'svg', build, height: (width) => 100 + (width < 480 ? 70 : 46) * shown.length});
 }

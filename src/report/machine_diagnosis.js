@@ -7,13 +7,16 @@ const machineVerdicts = {
   unexplained: 'In addition to the errors of location the machine has a deviation that no catalogued cause explains fully.',
 };
 
+/** k of U = k u. */
+const coverageFactor = () => data.diagnosis.options.coverage_factor;
+
 /** mm as µm, degrees as µrad: the sizes that errors of machines have. */
 function errorSize({value, u, unit}) {
   if (!isNumber(value)) return 'not determined';
   const [factor, shown] = unit === 'deg' ? [1e6 * Math.PI / 180, 'µrad'] : unit === 'mm' ? [1000, 'µm'] : [1, unit];
-  const decimals = isNumber(u) && u > 0 ? decimalsFor(2 * u * factor) : null;
+  const decimals = isNumber(u) && u > 0 ? decimalsFor(coverageFactor() * u * factor) : null;
   const text = decimals === null ? significant(value * factor, 3) : fixed(value * factor, decimals);
-  return isNumber(u) && u > 0 ? `${text} ± ${significant(2 * u * factor, 2)}${nbsp}${shown}` : `${text}${nbsp}${shown}`;
+  return isNumber(u) && u > 0 ? `${text} ± ${significant(coverageFactor() * u * factor, 2)}${nbsp}${shown}` : `${text}${nbsp}${shown}`;
 }
 
 const titleOf = (id) => data.titles[id] ?? id;
@@ -28,8 +31,8 @@ function machineFindingCard(finding, number) {
   return element('div', {class: 'card'}, element('h4', {}, `${number}. ${sentence(titleOf(finding.effect))}`, element('small', {}, finding.effect)), facts(list),
     classTable(finding, data.titles),
     finding.alias ? paragraph(`These positions read ${worded(finding.alias)} alike.`) : null,
-    finding.pairs?.length ? paragraph(`Nor are they told from two together: ${finding.pairs.map((pair) => pair.join(' with ')).join('; ')}.`, 'quiet') : null,
-    finding.rivals.length ? paragraph(finding.separate_with ? `To tell them apart: ${planWords(finding.separate_with)}.` : 'None of the plans tells them apart.') : null);
+    finding.pairs?.length ? paragraph(`Two together would also look like them: ${finding.pairs.map((pair) => pair.join(' with ')).join('; ')}.`, 'quiet') : null,
+    finding.rivals.length ? paragraph(finding.separate_with ? `To tell these causes apart: ${planWords(finding.separate_with)}.` : 'None of the plans tells them apart.') : null);
 }
 
 function gainBlock({gain, noise, hypotheses, false_alarm: alarm}) {
@@ -42,7 +45,7 @@ function gainBlock({gain, noise, hypotheses, false_alarm: alarm}) {
 function locationTable({extended, baseline}) {
   const rows = Object.entries(extended.parameters).map(([name, p]) => [withTitle(name), errorSize(p)]);
   if (!rows.length) return null;
-  return block('Errors of location', paragraph(`Fitted together with what was found, ± U with k = 2. ${sentence(baseline.gauge)}`, 'quiet'),
+  return block('Errors of location', paragraph(`Fitted together with what was found, ± U with k = ${coverageFactor()}. ${sentence(baseline.gauge)}`, 'quiet'),
     table('Positions and directions of the axes, compared with the machine file', ['Error', 'Size ± U'], rows));
 }
 
@@ -53,8 +56,8 @@ const mindedOf = ({remarks = [], checks = []}) => [...remarks, ...checks.filter(
 function findingsSection({diagnosis}) {
   const {verdict, findings, unexplained, consequences} = diagnosis;
   const items = findings.map((f) => {
-    const rivals = f.rivals.slice(0, 3).map((r) => `${titleOf(r.effect)} (${chance(r.probability)})`);
-    return element('li', {}, element('strong', {}, sentence(titleOf(f.effect))), ` ${errorSize(f.size)}${f.rivals.length ? `, with a chance of ${chance(f.probability)}` : ''}.`,
+    const rivals = f.rivals.slice(0, 3).map((r) => `${titleOf(r.effect)} (probability ${probabilityOf(r.probability)})`);
+    return element('li', {}, element('strong', {}, sentence(titleOf(f.effect))), ` ${errorSize(f.size)}${f.rivals.length ? `, probability ${probabilityOf(f.probability)}` : ''}.`,
       rivals.length ? ` Or: ${rivals.join('; ')}${f.rivals.length > 3 ? `; or ${f.rivals.length - 3} more` : ''}.` : '',
       consequences[f.effect] ? ` ${sentence(consequences[f.effect])}` : '');
   });
@@ -66,7 +69,7 @@ function findingsFold({diagnosis}) {
   const {findings, unexplained} = diagnosis;
   const cards = findings.map((f, i) => machineFindingCard(f, i + 1));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'}, element('h4', {}, `Unexplained: ${u.pattern}`), facts([['Amplitude', errorSize(u.amplitude)]]),
-    paragraph('No effect explains it, so the program does not correct it: its amplitude is counted with the uncertainty.', 'quiet'))));
+    paragraph('No known cause explains it, so the program does not correct it. Its amplitude is part of the uncertainty.', 'quiet'))));
   return fold('findings', 'Full diagnosis', cards.length ? element('div', {class: 'cards'}, cards) : null, gainBlock(diagnosis), locationTable(diagnosis));
 }
 
@@ -88,8 +91,8 @@ function rangesTable(ranges) {
 function unknownFold({diagnosis, ranges}) {
   const held = diagnosis.baseline.not_determined, unseen = notObservableRows(diagnosis), next = diagnosis.next_measurement;
   return fold('unknown', 'What is not known',
-    block('Not seen at these positions', unseen.length
-      ? table('Effects that would stay hidden at 10 µm or 50 µrad, and the measurement that shows them', ['Effect', 'Why', 'Shown by'], unseen, 3)
+    block('Hidden at these positions', unseen.length
+      ? table('Causes that would stay hidden at 10 µm or 50 µrad, and the measurement that shows them', ['Cause', 'Why', 'Shown by'], unseen, 3)
       : paragraph('Every effect that is looked for would have been found at 10 µm or 50 µrad.'),
     paragraph(next.plan ? `Next measurement: ${next.what} (${tick(Math.round(next.minutes))}${nbsp}min).` : 'No plan shows or separates anything more.')),
     held.length ? block('Held, because the measurement does not determine it', table('Errors of location that stay as they were given', ['Error', 'Why'], held.map((one) => [withTitle(one.class[0]), sentence(worded(one.why))]), 2)) : null,

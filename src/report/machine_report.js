@@ -111,7 +111,7 @@ function harmSection({harm}) {
   return section(
       'program', 'On the program',
       paragraph(`${harm.file}, ${harm.blocks} positions. ${U}: ${micrometres(harm.U_without_place_of_part.value)}, without the position of the part${plans.length ? `; ${plans.join('; ')}` : ''}.`),
-      rows.length ? table('The tip off by each effect alone', ['Effect', 'Size', 'Tip off by', 'Block'], rows, 2) : null);
+      rows.length ? table('The tip off by each cause alone', ['Cause', 'Size', 'Tip off by', 'Block'], rows, 2) : null);
 }
 
 const programFold = (all) => all.compensation ?

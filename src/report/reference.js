@@ -138,7 +138,7 @@ function chartBlocks(reference) {
   return blocks;
 }
 
-/** What the surface leaves, in the order of what it means: what was seen and its causes, then as polar plots. */
+/** The residuals of the surface: causes first, then polar plots. */
 function formSection(reference, index) {
   const {readings, diagnosis, roundness} = reference;
   const solved = reference.status === 'converged' || reference.status === 'max_iterations';
@@ -148,8 +148,8 @@ function formSection(reference, index) {
   if (roundness) return section(`form-${index + 1}`, `Roundness: ${reference.name}`, ...parts, ...(reference.form ? [partFormBlock(reference.form, Boolean(reference.diagnosis))] : []), ...roundnessBlock(reference));
   const polars = solved && readings ? residualPolars(readings) : [];
   if (polars.length) {
-    parts.push(paragraph(`What is left when the associated surface is taken away, so that all is centred on the dashed circle; outside is ${readings.face ? 'towards +Z' : 'away from the axis'}.` +
-      (polars.length && readings.sections.some((part) => part.found) ? ' Orange is what was found.' : ''), 'quiet'), element('div', {class: 'triple'}, polars));
+    parts.push(paragraph(`Residuals about the fitted surface, which is the dashed circle; outside is ${readings.face ? 'towards +Z' : 'away from the axis'}.` +
+      (polars.length && readings.sections.some((part) => part.found) ? ' The orange line is the causes found.' : ''), 'quiet'), element('div', {class: 'triple'}, polars));
   } else {
     parts.push(paragraph('There are no residuals to show: the fit gave no surface that could be compared with the readings.', 'quiet'));
   }

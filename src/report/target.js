@@ -64,7 +64,7 @@ function remaindersTable(target, references, k) {
     isNumber(r.after.at_most_mm) ? `${micrometres(r.after.coaxiality_mm, r.after.at_most_mm)}, ≤ ${micrometres(r.after.at_most_mm, r.after.at_most_mm)} (95 % confidence)` : `${micrometres(r.after.coaxiality_mm)}, u unknown`,
     r.face ? '–' : micrometres(r.after.offset_start_mm), r.face ? '–' : micrometres(r.after.offset_end_mm), tilt(r.after.tilt_deg),
     isNumber(r.weight) ? tick(r.weight) : '–']);
-  return table(`What is left at each reference when the part is cut about the target axis, ± U (k = ${tick(k)})`,
+  return table(`Residual coaxiality of each reference if the part is cut about the target axis, ± U (k = ${tick(k)})`,
     ['Reference', 'Measure', 'Cut about the spindle', 'Cut about the target axis', 'Offset at start', 'Offset at end', 'Tilt', 'Weight'], rows, 2);
 }
 

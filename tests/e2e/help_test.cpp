@@ -133,6 +133,45 @@ TEST_F(Help, SaysWhatToDoNext) {
             "trueaxis machine --help lists all.\n");
 }
 
+// One grammar of options: what does not have one of these says why.
+TEST_F(Help, EveryCommandHasTheSharedOptions) {
+  using Exceptions = std::map<std::string, const char*>;
+  const char* const computes_nothing = "computes nothing";
+  const char* const no_U = "prints no uncertainty";
+  const std::map<std::string, Exceptions> exceptions{
+      {"--verbose", {}},
+      {"--json",
+       {{"init", computes_nothing},
+        {"completion", computes_nothing},
+        {"man", computes_nothing},
+        {"machine import", "its one result is the machine file"}}},
+      {"--check",
+       {{"effects", "reads no file"}, {"completion", computes_nothing}, {"man", computes_nothing}}},
+      {"--force", {{"completion", computes_nothing}, {"man", computes_nothing}}},
+      {"--coverage-factor",
+       {{"init", computes_nothing},
+        {"completion", computes_nothing},
+        {"man", computes_nothing},
+        {"import", no_U},
+        {"effects", no_U},
+        {"table", "k is that of the fit or diagnosis that it reads"},
+        {"simulate", "k is that of the diagnosis that it reads"},
+        {"machine pose", no_U},
+        {"machine inverse", no_U},
+        {"machine errors", no_U},
+        {"machine import", no_U},
+        {"machine simulate", no_U},
+        {"setup datums", "its file does not state u"},
+        {"study sweep", "how often U holds is known for k = 2 only"},
+        {"study axis-bias", no_U}}}};
+  for (const auto& [option, without] : exceptions) {
+    for (const auto& [name, why] : without)
+      EXPECT_TRUE(commands_.contains(name)) << name << " has no " << option << ": " << why;
+    for (const auto& [name, one] : commands_)
+      EXPECT_EQ(one.options.contains(option), !without.contains(name)) << name << ' ' << option;
+  }
+}
+
 // The judge itself: what is misspelled is found.
 TEST_F(Help, TroubleIsSeen) {
   EXPECT_NE(trouble("trueaxis calibrate a.csv", commands_), "");

@@ -91,9 +91,14 @@ TEST_F(Screens, OfLathesFit) {
 
 // No line is wider than the terminal, and no line break separates a number from its unit.
 TEST_F(Screens, KeepToTheTerminal) {
-  const std::regex torn("[0-9]\r?\n +(µm|mm|µrad|deg|rpm|±)");
+  const std::regex torn(
+      "[0-9]\r?\n +((µm|mm|µrad|mrad|nm|deg|rpm|min|Hz|ms|s|%|°|UPR)\\b|%|°|±)|(±|=)\r?\n|\r?\n "
+      "+=");
+  std::vector<std::string> all = machine_commands();
+  for (const std::string& one : lathe_commands()) all.push_back(one);
+  all.push_back("run " + of + "jobs/measured.toml -o measured");
   for (const unsigned short columns : {80, 120})
-    for (const std::string& one : machine_commands()) {
+    for (const std::string& one : all) {
       const TerminalRun run = on_terminal(folder_, "NO_COLOR=1 trueaxis " + one, columns);
       EXPECT_EQ(run.exit_code, 0) << one;
       EXPECT_FALSE(std::regex_search(run.shown, torn)) << run.shown;

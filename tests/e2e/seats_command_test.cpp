@@ -92,9 +92,18 @@ TEST_F(SeatsCommand, RunTakesEverySeatOfAStream) {
   EXPECT_EQ(found.at("references")[0].at("fit").at("surface"), "cylinder");
   expect_distance(found);
   for (const char* said : {"seat   A, a cylinder", "seat   B, a cylinder", "tap    A runs out",
-                           "ecc  ", "apart  B from A: ", "coax   ", "a shoulder"})
+                           "offset ", "apart  B from A: ", " coaxiality ", "a shoulder"})
     EXPECT_TRUE(contains(done.out, said)) << said << '\n' << done.out;
   EXPECT_TRUE(contains(read_text(folder_ / "out/report.html"), "\"seats_apart\""));
+  // The first line has the number.
+  std::smatch first;
+  const std::string line = done.out.substr(0, done.out.find('\n'));
+  ASSERT_TRUE(std::regex_search(
+      line, first,
+      std::regex("; ([0-9.]+) ± ([0-9.]+) µm between the axes of A and B at Z ([0-9.]+) mm")))
+      << line;
+  EXPECT_NEAR(std::stod(first[1]), 1000.0 * apart_mm(std::stod(first[3])), std::stod(first[2]))
+      << line;
 }
 
 TEST_F(SeatsCommand, AJobTakesRangesOfOneFileOrTwoFiles) {

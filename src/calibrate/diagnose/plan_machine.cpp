@@ -13,6 +13,7 @@ MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptio
                      "has no rotary axis, or not three linear ones: no plan of a ball follows");
   MachineDiagnosis out;
   out.baseline.converged = true;
+  out.baseline.coverage_factor = options.calibration.coverage_factor;
   out.errors = options.calibration.errors;
   out.false_alarm = options.false_alarm;
   out.typical_length_mm = options.typical_length_mm;

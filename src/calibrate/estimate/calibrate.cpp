@@ -191,6 +191,7 @@ Calibration of_read_outs(const Machine& machine, std::span<const MachineMeasurem
   Calibration out;
   out.converged = true;
   out.errors = options.errors;
+  out.coverage_factor = options.coverage_factor;
   for (const MachineMeasurement& file : data) {
     out.sources.push_back(file.source);
     out.input_hashes.push_back(file.input_hash);

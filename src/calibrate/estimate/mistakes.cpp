@@ -306,11 +306,12 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
 
 std::string implausible(const Calibration& found, const CalibrationOptions& options) {
   constexpr double far_beyond = 50.0;  // largest plausible sizes: 5 mm, 0.6 degrees
+  constexpr double k = 2.0;            // whatever k is printed: a wrong unit stays wrong
   for (const CalibratedParameter& p : found.parameters) {
     const bool angle = p.estimate.unit == "rad";
     const double most =
         far_beyond * (angle ? options.largest_angle_rad : options.largest_length_mm);
-    const double least = std::abs(p.estimate.value) - options.coverage_factor * p.estimate.u;
+    const double least = std::abs(p.estimate.value) - k * p.estimate.u;
     if (!(least > most)) continue;
     return fmt::format(
         "{} is {:.4g} {}: no machine is so far from its model. Check that the machine file, the "

@@ -11,16 +11,16 @@ std::string unit_of(const Estimate& estimate) { return estimate.unit == "rad" ? 
 
 double small_factor(const Estimate& estimate) { return estimate.unit == "rad" ? 1e6 : 1e3; }
 
-std::string parameter_line(const CalibratedParameter& one) {
+std::string parameter_line(const CalibratedParameter& one, double k) {
   const double factor = small_factor(one.estimate);
-  const double U = 2.0 * factor * one.estimate.u;
+  const double U = k * factor * one.estimate.u;
   const int decimals = decimals_of(U, 1);
   std::string text =
       fmt::format("  {:<12}{:>12.{}f} ± {:<10.{}f} {}", one.name, factor * one.estimate.value,
                   decimals, U, decimals, unit_of(one.estimate));
   if (one.u_noise > 0.0)
-    text += fmt::format("  (noise alone {:.{}f})", 2.0 * factor * one.u_noise,
-                        decimals_of(2.0 * factor * one.u_noise, 1));
+    text += fmt::format("  (noise alone {:.{}f})", k * factor * one.u_noise,
+                        decimals_of(k * factor * one.u_noise, 1));
   return text + '\n';
 }
 
@@ -45,7 +45,7 @@ std::string components_text(const Calibration& c) {
   return text;
 }
 
-std::string read_out_text(const AxisReadOut& one) {
+std::string read_out_text(const AxisReadOut& one, double k) {
   const bool rotary = is_rotary(one.axis);
   const double factor = rotary ? 1e6 : 1e3;
   const char* const unit = rotary ? "µrad" : "µm";
@@ -56,7 +56,7 @@ std::string read_out_text(const AxisReadOut& one) {
     text += fmt::format(
         "  reversal value {:.3g} ± {:.2g} {}: it is not in the errors file. Correct it in the "
         "control\n",
-        factor * one.reversal->value, 2.0 * factor * one.reversal->u, unit);
+        factor * one.reversal->value, k * factor * one.reversal->u, unit);
   if (one.period > 0.0)
     text += fmt::format("  periodic in {:.6g} {}:", rotary ? one.period / rad_per_deg : one.period,
                         rotary ? "deg" : "mm");
@@ -69,13 +69,14 @@ std::string read_out_text(const AxisReadOut& one) {
 
 std::string calibration_text(const Calibration& c) {
   std::string text;
-  for (const AxisReadOut& one : c.read_outs) text += read_out_text(one);
+  for (const AxisReadOut& one : c.read_outs) text += read_out_text(one, c.coverage_factor);
   if (c.equations > 0)
     text += fmt::format("{} numbers, {} unknowns: RMS {} -> {}, noise {} ({})\n", c.equations,
                         c.unknowns, layout::um(c.rms_before_mm), layout::um(c.rms_after_mm),
                         layout::um(c.noise_mm), to_string(c.noise_basis));
-  if (!c.parameters.empty()) text += "parameters ± U (k = 2)\n";
-  for (const CalibratedParameter& one : c.parameters) text += parameter_line(one);
+  if (!c.parameters.empty()) text += fmt::format("parameters ± U (k = {:g})\n", c.coverage_factor);
+  for (const CalibratedParameter& one : c.parameters)
+    text += parameter_line(one, c.coverage_factor);
   text += components_text(c);
   if (!c.not_determined.empty()) text += "not determined\n";
   for (const NotDetermined& one : c.not_determined) text += layout::wrapped("  ", one.why) + "\n";

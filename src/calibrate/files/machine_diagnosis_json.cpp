@@ -127,6 +127,7 @@ Json gain_json(const MachineDiagnosis& d) {
 
 Json options_json(const MachineDiagnosis& d) {
   return {{"false_alarm", number(d.false_alarm)},
+          {"coverage_factor", number(d.baseline.coverage_factor)},
           {"typical_length", with_unit(d.typical_length_mm, "mm")},
           {"typical_angle", with_unit(d.typical_angle_rad / rad_per_deg, "deg")}};
 }

@@ -31,12 +31,13 @@ std::string small_estimate(const std::string& name, const Estimate& estimate, do
 
 /// The cause, its size and its rival causes; then in words, with what follows from it.
 std::string finding_screen(const MachineFinding& finding) {
-  std::string text = fmt::format("seen   {}: {}, {} in the readings", finding.effect(),
+  std::string text = fmt::format("found  {}: {}, {} in the readings", finding.effect(),
                                  small_size(finding.size, finding.cause.unit), um(finding.rms_mm));
   if (!finding.rivals.empty()) {
     std::vector<std::string> rivals;
     for (const Rival& rival : finding.rivals)
-      rivals.push_back(rival.effect + " (" + layout::probability(rival.probability) + ")");
+      rivals.push_back(rival.effect + " (probability " + layout::probability(rival.probability) +
+                       ")");
     text += "; not distinguishable from " + some_of(rivals, most_rivals) +
             (!finding.separate_with || finding.separate_with->plan.empty()
                  ? ", and no plan tells them apart"
@@ -47,7 +48,7 @@ std::string finding_screen(const MachineFinding& finding) {
          (finding.cause.consequence.empty() ? "" : ": " + finding.cause.consequence) + "\n";
 }
 
-std::string read_out_screen(const AxisReadOut& one) {
+std::string read_out_screen(const AxisReadOut& one, double k) {
   const char* const unit = is_rotary(one.axis) ? "rad" : "mm";
   std::string text =
       fmt::format("axis   {}: {} readings, RMS {} -> {}, noise {}", letter_of(one.axis),
@@ -59,7 +60,7 @@ std::string read_out_screen(const AxisReadOut& one) {
                         is_rotary(one.axis) ? "deg" : "mm");
   text += "\n";
   if (one.reversal)
-    text += "       " + small_estimate("reversal value", *one.reversal, 2.0) +
+    text += "       " + small_estimate("reversal value", *one.reversal, k) +
             ": it is not in the errors file. Correct it in the control\n";
   return text;
 }
@@ -80,11 +81,12 @@ std::string calibration_screen(const Calibration& c) {
         to_string(c.noise_basis));
   else
     text = "DONE: position errors found\n";
-  for (const AxisReadOut& one : c.read_outs) text += read_out_screen(one);
+  for (const AxisReadOut& one : c.read_outs) text += read_out_screen(one, c.coverage_factor);
   std::vector<std::string> errors, shown, open;
   for (const CalibratedParameter& one : c.parameters)
-    errors.push_back(small_estimate(one.name, one.estimate, 2.0));
-  if (!errors.empty()) text += fmt::format("errors {} (U, k = 2)\n", fmt::join(errors, ", "));
+    errors.push_back(small_estimate(one.name, one.estimate, c.coverage_factor));
+  if (!errors.empty())
+    text += fmt::format("errors {} (U, k = {:g})\n", fmt::join(errors, ", "), c.coverage_factor);
   for (const CalibratedComponent& one : c.components)
     if (one.shown) shown.push_back(one.name + " " + small_size(one.rms.value, one.rms.unit));
   if (!shown.empty())
@@ -104,7 +106,7 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
     if (shown++ < most_findings) text += finding_screen(finding);
   for (const MachineUnexplained& one : d.unexplained)
     if (shown++ < most_findings)
-      text += fmt::format("seen   {}, {}, without a known cause\n", one.pattern,
+      text += fmt::format("found  {}, {}, without a known cause\n", one.pattern,
                           small_size(one.amplitude.value, one.amplitude.unit));
   if (shown > most_findings)
     text += fmt::format("       and {} more (--verbose)\n", shown - most_findings);
@@ -113,7 +115,7 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
   std::vector<std::string> hidden;
   for (const MachineNotObservable& one : d.not_observable) hidden.push_back(one.effect);
   if (!hidden.empty())
-    text += "hidden invisible at these positions: " + some_of(hidden, most_hidden) + "\n";
+    text += "hidden cannot be seen at these positions: " + some_of(hidden, most_hidden) + "\n";
   return text;
 }
 

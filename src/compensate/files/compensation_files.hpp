@@ -19,7 +19,8 @@ std::string compensation_json(const ProgramCompensation& result, const Compensat
                               const std::vector<std::string>& remarks);
 
 /// The result for a terminal.
-std::string compensation_text(const ProgramCompensation& result);
+std::string compensation_text(const ProgramCompensation& result,
+                              const CompensationOptions& options);
 
 /// That the new program is no better than the old one, for the refusal.
 std::string worse_text(const ProgramCompensation& result, const CompensationOptions& options);

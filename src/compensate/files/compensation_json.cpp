@@ -72,9 +72,9 @@ std::string compensation_json(const ProgramCompensation& result, const Compensat
   json["remarks"] = remarks;
   if (result.u_tip) {
     LargestInProgram expanded = *result.u_tip;
-    expanded.value *= 2.0;
+    expanded.value *= options.coverage_factor;
     json["U"] = largest_json(expanded, false);
-    json["U"]["coverage_factor"] = 2;
+    json["U"]["coverage_factor"] = options.coverage_factor;
   }
   return json_text(json);
 }

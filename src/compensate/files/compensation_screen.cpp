@@ -90,8 +90,9 @@ std::string compensation_screen(const ProgramCompensation& result,
   text += "turned direction of the tool off by " + degrees(result.after.direction.value) + ", " +
           degrees(result.before.direction.value) + " without it\n";
   if (result.u_tip)
-    text += "U      of the tip " + um(2.0 * result.u_tip->value) +
-            " (k = 2), the uncertainty of the part's place included\n";
+    text += fmt::format(
+        "U      of the tip {} (k = {:g}), the uncertainty of the part's place included\n",
+        um(options.coverage_factor * result.u_tip->value), options.coverage_factor);
   return text + changes_screen(result) + causes_screen(result) + blocks_screen(result);
 }
 

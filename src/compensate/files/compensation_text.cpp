@@ -49,7 +49,8 @@ std::string largest_errors(const ProgramCompensation& result) {
 
 }  // namespace
 
-std::string compensation_text(const ProgramCompensation& result) {
+std::string compensation_text(const ProgramCompensation& result,
+                              const CompensationOptions& options) {
   std::string text =
       format("{} blocks read, {} move, {} rewritten, {} inserted\n", result.blocks_read,
              result.blocks_moved, result.blocks_rewritten, result.blocks_inserted);
@@ -64,8 +65,10 @@ std::string compensation_text(const ProgramCompensation& result) {
   text += row("largest change", changes(result));
   if (!result.by_error.empty()) text += row("errors alone", largest_errors(result));
   if (result.u_tip)
-    text += row("U of the tip", layout::um(2.0 * result.u_tip->value) +
-                                    " (k = 2), including the uncertainty of the place of the part");
+    text += row(
+        "U of the tip",
+        format("{} (k = {:g}), including the uncertainty of the place of the part",
+               layout::um(options.coverage_factor * result.u_tip->value), options.coverage_factor));
   if (!result.singular.empty())
     text +=
         row("at a pole", format("{} blocks, whose direction is not corrected: the first in line {}",

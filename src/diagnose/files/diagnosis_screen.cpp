@@ -54,7 +54,7 @@ std::string findings_screen(const Diagnosis& d, std::size_t most) {
   for (const Finding& finding : d.findings) {
     if (shown++ == most) break;
     text += line(
-        "seen   ",
+        "found  ",
         seen_text(finding, k) +
             (finding.cosmetic
                  ? ""
@@ -64,7 +64,7 @@ std::string findings_screen(const Diagnosis& d, std::size_t most) {
   }
   for (const Unexplained& pattern : d.unexplained) {
     if (shown++ >= most) break;
-    text += line("seen   ", seen_text(pattern, k));
+    text += line("found  ", seen_text(pattern, k));
   }
   const std::size_t all = d.findings.size() + d.unexplained.size();
   if (all > most) text += fmt::format("       and {} more (--verbose)\n", all - most);
@@ -93,9 +93,10 @@ std::string unseen_screen(const Diagnosis& d) {
                                          : fmt::format("{:.2g} {}", shown.value, shown.unit)) +
                     " of " + (effect ? plain_name(*effect) : n.effect));
   }
-  return sizes.empty() ? ""
-                       : line("unseen ",
-                              fmt::format("{} would move the axis by U", fmt::join(sizes, " or ")));
+  return sizes.empty()
+             ? ""
+             : line("hidden ", fmt::format("{} cannot be seen here and would move the axis by U",
+                                           fmt::join(sizes, " or ")));
 }
 
 std::string excluded_screen(const Diagnosis& d) {

@@ -136,10 +136,11 @@ std::string seen_text(const Unexplained& pattern, double k) {
 std::vector<std::string> cause_lines(const Diagnosis& diagnosis, const Finding& finding,
                                      std::size_t most) {
   std::vector<std::string> lines;
-  const auto add = [&](const std::string& id, double chance) {
+  const auto add = [&](const std::string& id, double p) {
     const Effect* effect = diagnosis.entry(id);
     std::string line = effect ? short_title(*effect) : id;
-    if (std::isfinite(chance) && !finding.rivals.empty()) line += " (" + probability(chance) + ")";
+    if (std::isfinite(p) && !finding.rivals.empty())
+      line += " (probability " + probability(p) + ")";
     if (effect && !effect->consequence.empty()) line += ": " + std::string(effect->consequence);
     lines.push_back(line + " [" + id + "]");
   };

@@ -82,9 +82,12 @@ Json seat_axis_object(const JobResult& result, std::size_t reference);
 /// How far the axes of each two seats are apart.
 Json seats_apart_array(const JobResult& result);
 
-/// The same for a terminal: lines "axis", "tap", "ecc", "apart", "coax"; empty where not known.
+/// The same for a terminal: lines "axis", "tap", "offset", "apart"; empty where not known.
 std::string seat_axis_screen(const JobResult& result, std::size_t reference);
 std::string seats_apart_screen(const JobResult& result);
+/// "; 2.4 ± 0.7 µm between the axes of A and B at Z 20 mm (k = 2)": those that are furthest from
+/// each other; empty where none are known.
+std::string largest_distance_text(const JobResult& result);
 
 /// As in result.json: filter, values as probed and of the part, a row a section, judgements.
 Json part_form_object(const PartForm& form);

@@ -94,9 +94,11 @@ std::string next_screen(const JobResult& result) {
 
 bool asks_for_proof(const JobResult& result) { return !result.verdict.what_would_prove().empty(); }
 
-/// How well the axis is known of the one reference of a job without a cut.
+/// How well the axis is known of the one reference of a job without a cut, how far apart the axes
+/// of several are.
 std::string accuracy(const JobResult& result) {
-  if (result.job.target || result.fits.size() != 1) return "";
+  if (result.job.target) return "";
+  if (result.fits.size() > 1) return largest_distance_text(result);
   const std::string known = axis_accuracy(fit_used(result, 0));
   return known.empty() ? "" : "; " + known;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -86,12 +87,30 @@ std::string seat_axis_screen(const JobResult& result, std::size_t reference) {
       fit.position_min_mm == fit.position_max_mm)
     return text;  // axis and tap say it of the only one
   const auto ends = ends_of(fit, axis);
-  text += "ecc    ";
+  text += "offset ";
   for (std::size_t e = 0; e < 2; ++e)
     text += (e == 0 ? "" : ", ") + um_pm(ends[e].size_mm(), ends[e].u_mm, fit.coverage_factor) +
             " at " + z_text(ends[e].z_mm);
   return text + ", tilt " + layout::size_plus_minus(tilt_of(axis), fit.coverage_factor, 1.0, "°") +
          "\n";
+}
+
+std::string largest_distance_text(const JobResult& result) {
+  const auto larger = [](const AxisOffset& a, const AxisOffset& b) {
+    return a.size_mm() < b.size_mm();
+  };
+  const SeatDistance* of = nullptr;
+  const AxisOffset* at = nullptr;
+  const std::vector<SeatDistance> distances = seat_distances(result);
+  for (const SeatDistance& d : distances) {
+    const AxisOffset& middle = *std::ranges::max_element(d.middle, larger);
+    if (at == nullptr || larger(*at, middle)) of = &d, at = &middle;
+  }
+  if (of == nullptr) return "";
+  const double k = result.job.references.front().fit.coverage_factor;
+  return fmt::format("; {} between the axes of {} and {} at {} (k = {:g})",
+                     um_pm(at->size_mm(), at->u_mm, k), result.job.references[of->first].name,
+                     result.job.references[of->second].name, z_text(at->z_mm), k);
 }
 
 std::string seats_apart_screen(const JobResult& result) {
@@ -111,8 +130,9 @@ std::string seats_apart_screen(const JobResult& result) {
             layout::size_plus_minus({1e3 * d.tilt_rad, 1e3 * d.u_tilt_rad, "mrad", ""}, k, 1.0,
                                     "mrad") +
             "\n";
-    text += "coax   " + coaxiality(1) + " of " + b + " with " + a + " as datum, " + coaxiality(0) +
-            " of " + a + " with " + b + " as datum (axes over the probed lengths)\n";
+    text += "       coaxiality " + coaxiality(1) + " of " + b + " with " + a + " as datum, " +
+            coaxiality(0) + " of " + a + " with " + b +
+            " as datum (axes over the probed lengths)\n";
   }
   return text;
 }

@@ -170,6 +170,7 @@ ProgramHarm weigh_on_program(const Machine& machine, MachineDiagnosis& diagnosis
                              const std::string& file) {
   ProgramHarm out;
   out.file = file;
+  out.coverage_factor = diagnosis.baseline.coverage_factor;
   std::vector<Block> blocks = blocks_of(machine, std::move(text), file);
   out.blocks = blocks.size();
   if (blocks.empty())

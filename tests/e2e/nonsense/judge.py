@@ -48,7 +48,7 @@ def judge(truth, unseen, out, code):
         return "right", words
     if re.search("^note .*angles repeat in every revolution", out, re.M):
         return "unseen", words
-    if unseen and re.search("^unseen .*" + re.escape(unseen.replace(".", " ")), out, re.M):
+    if unseen and re.search("^hidden .*" + re.escape(unseen.replace(".", " ")), out, re.M):
         return "unseen", words
     return ("WRONG" if code == 0 else "shown"), words
 

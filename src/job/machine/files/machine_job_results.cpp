@@ -121,7 +121,7 @@ std::string machine_job_text(const MachineJobResult& result) {
   text += layout::wrapped("next    ", machine_next_words(result.verdict)) + "\n";
   text += machine_diagnosis_text(result.diagnosis);
   if (result.compensation && result.compensation->unreachable.empty())
-    text += compensation_text(*result.compensation);
+    text += compensation_text(*result.compensation, result.job.program->options);
   for (const Reason& remark : result.remarks) text += layout::wrapped("", words_of(remark)) + '\n';
   return text;
 }
