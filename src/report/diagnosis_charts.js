@@ -115,7 +115,7 @@ function plansChart(plans) {
     legend: legend({left: 0, right: 0}),
     xAxis: axis('probability of the right name in %', {min: 0, max: 100}),
     yAxis: axis('', {type: 'category', inverse: true, data: shown.map((plan) => plan.what || data.words.measurements[plan.plan]),
-      axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink, interval: 0, width: width < 480 ? 130 : 300, overflow: 'break', fontSize: width < 480 ? 10 : 12}}),
+      axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink, interval: 0, width: width < 480 ? 130 : 300, overflow: 'break', lineHeight: 15, fontSize: width < 480 ? 10 : 12}}),
     series: [bars('with the data at hand', 'power_before', colours.grey), bars('with the measurement added', 'power', colours.series[2])],
   });
   return figure({caption: 'What each measurement would do, as predicted from its geometry and the noise found here.',

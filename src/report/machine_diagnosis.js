@@ -38,7 +38,7 @@ function machineFindingCard(finding, number) {
 function gainBlock({gain, noise, hypotheses, false_alarm: alarm}) {
   const held = ({value, low, high}) => `${micrometres(value)} (${significant(low * 1000, 2)} … ${significant(high * 1000, 2)})`;
   return block('Gain', facts([['RMS of the readings, before → after', `${micrometres(gain.rms_before.value)} → ${micrometres(gain.rms_after.value)}`],
-    ['Held out, before', held(gain.held_out_rms_before)], ['Held out, after', held(gain.held_out_rms_after)], ['Left out in turn', gain.blocks],
+    ['Cross-validated, before', held(gain.held_out_rms_before)], ['Cross-validated, after', held(gain.held_out_rms_after)], ['Excluded in turn', gain.blocks],
     ['σ of one number', micrometres(noise.sigma.value)], ['Tested', `${hypotheses} hypotheses, false alarm ${percent(alarm)}`]]));
 }
 

@@ -39,8 +39,8 @@ function formPolar(form) {
     ? {name, type: 'scatter', coordinateSystem: 'polar', symbolSize: um.length > 120 ? 2 : 4, itemStyle: {color: colour}, emphasis: {disabled: true}, data: kept(um)}
     : {name, type: 'line', coordinateSystem: 'polar', symbol: 'none', emphasis: {disabled: true}, lineStyle: {color: colour, width, type: dashed ? 'dashed' : 'solid'}, itemStyle: {color: colour}, data: closed(kept(um))});
   const build = (width) => ({
-    legend: legendOf(series.slice(0, 3), {left: 'center', right: 'auto', ...(width < 300 ? {itemWidth: 12, itemGap: 6, textStyle: {color: colours.ink, fontSize: 10}} : {})}),
-    polar: {radius: width < 300 ? '66%' : '76%', center: ['50%', width < 300 ? '57%' : '54%']},
+    legend: legendOf(series.slice(0, 3), {left: 'center', right: 'auto', ...(width < 400 ? {itemWidth: 12, itemGap: 6, textStyle: {color: colours.ink, fontSize: 10}} : {})}),
+    polar: {radius: width < 400 ? '64%' : '76%', center: ['50%', width < 400 ? '59%' : '54%']},
     angleAxis: {type: 'value', min: 0, max: 360, interval: width < 300 ? 90 : 45, startAngle: 0, clockwise: false,
       axisLabel: {color: colours.grey, formatter: (v) => v === 360 ? '' : `${v}°`}, axisLine: {lineStyle: {color: colours.line}}, axisTick: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
     radiusAxis: {min: step * -Math.floor(base / step), max: out, interval: step, axisLine: {show: false}, axisTick: {show: false}, axisLabel: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},

@@ -48,7 +48,7 @@ function parameterRow({name, value, u, unit, why, interval}, k) {
 const named = (quantities) => Object.entries(quantities).map(([name, quantity]) => ({name, ...quantity}));
 
 const parameterTable = (caption, quantities, k) =>
-  table(caption, ['Quantity', 'Value', 'u', `U (k = ${tick(k)})`], named(quantities).map((p) => parameterRow(p, k)));
+  table(caption, ['Quantity', 'Value', 'u', `U (k${nbsp}=${nbsp}${tick(k)})`], named(quantities).map((p) => parameterRow(p, k)));
 
 function statusBlock(reference) {
   const good = reference.status === 'converged';

@@ -32,7 +32,7 @@ function inspectCharts() {
   const texts = (chart) => chart.getZr().storage.getDisplayList(true).filter((e) => e.type === 'tspan' && !e.ignore && !e.invisible && e.style.text).map((e) => {
     const box = e.getBoundingRect().clone();
     if (e.transform) box.applyTransform(e.transform);
-    return {text: e.style.text, box};
+    return {text: e.style.text, box, middle: box.y + box.height / 2, turned: Math.abs(e.transform?.[1] ?? 0) > 0.1, size: parseFloat(/([\d.]+)px/.exec(e.style.font)?.[1] ?? 12)};
   });
   const {charts} = window.trueaxisReport;
   charts.forEach((chart, i) => {
@@ -63,6 +63,10 @@ function inspectCharts() {
     if (!canvas && !svg) problems.push(`${name}: nothing is drawn`);
     const cut = texts(chart).filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
     if (cut.length) problems.push(`${name}: text is cut at the edge: ${cut.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
+    // Letters are as high as their font says: a drawing measures lines too low where the font lacks a sign.
+    const all = texts(chart).filter((t) => !t.turned), width = (a, b) => Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x);
+    const on = all.flatMap((a, k) => all.slice(k + 1).filter((b) => width(a.box, b.box) > 4 && Math.abs(a.middle - b.middle) < 0.8 * Math.min(a.size, b.size)).map((b) => `"${a.text}" and "${b.text}"`));
+    if (on.length) problems.push(`${name}: texts lie on each other: ${on.slice(0, 3).join(', ')}`);
     const plot = chart.getModel().getComponent('grid')?.coordinateSystem?.getRect();
     const names = new Set(series.map((s) => s.name));
     const over = !plot || plot.height < 100 ? [] : texts(chart).filter(({text, box: at}) => names.has(text) && at.x + at.width > plot.x + 1 && at.y + at.height > plot.y + 1 && at.y < plot.y + plot.height);
@@ -149,14 +153,14 @@ async function lookDark(browser) {
   problems.push(...(await page.evaluate(inspectContrast)).map((problem) => `dark: ${problem}`));
   await shoot(page, 'dark.png');
   await page.evaluate(() => document.querySelectorAll('details').forEach((d) => { d.open = false; }));
+  // As a browser does: the page is told first, and then has the width and the rules of paper. It waits for no frame.
+  const charts = await page.evaluate(`window.dispatchEvent(new Event('beforeprint')); (${inspectCharts})()`);
   await page.setViewportSize({width: 703, height: 1000});  // A4 less its margins
   await page.emulateMedia({media: 'print', colorScheme: 'dark'});
-  // Paper takes what is drawn at once: it waits for no frame.
-  const charts = await page.evaluate(`window.dispatchEvent(new Event('beforeprint')); (${inspectCharts})()`);
   const folded = await page.evaluate(() => document.querySelectorAll('details:not([open])').length);
   if (folded) problems.push(`print: ${folded} parts stay folded`);
   if (await page.evaluate(paperIsDark)) problems.push('print: the paper is dark');
-  problems.push(...[...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectContrast), ...await page.evaluate(inspectClipped)].map((problem) => `print: ${problem}`));
+  problems.push(...[...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectContrast), ...await page.evaluate(inspectClipped), ...await page.evaluate(inspectSmall)].map((problem) => `print: ${problem}`));
   console.log(`print: ${charts.count} charts`);
   await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
   const open = await page.evaluate(() => document.querySelectorAll('details[open]').length);
@@ -164,6 +168,11 @@ async function lookDark(browser) {
   await page.close();
   return problems;
 }
+
+/** Tables whose letters are too small to read on paper: below 6 pt. */
+const inspectSmall = () => [...document.querySelectorAll('table')].filter((one) => one.offsetParent)
+  .map((one) => [one, Number(one.style.zoom || 1) * Math.min(...[...one.querySelectorAll('th, td')].map((cell) => parseFloat(getComputedStyle(cell).fontSize)))])
+  .filter(([, size]) => size < 8).map(([one, size]) => `a table has letters of ${size.toFixed(1)} px: ${one.textContent.slice(0, 40)}`);
 
 /** Tables that are wider than the paper, which has no scroll bar. */
 const inspectClipped = () => [...document.querySelectorAll('.scroll, .chart')].filter((box) => box.offsetParent && box.scrollWidth > box.clientWidth + 1)
