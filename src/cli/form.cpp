@@ -84,6 +84,8 @@ FormResult assessed(const FormArguments& options, const FormOptions& form) {
   if (options.datum.empty()) return assess_form(stream, form);
   const ProbeStream datum = read_recording(options.datum, options.stream.recording());
   expect_one_surface(datum, SurfaceKind::cylinder, RangesAs::options);
+  if (datum.input_hash == stream.input_hash)
+    throw InputError(options.datum, "is the stream itself: name the readings of the datum seat");
   return assess_form(stream, form, &datum);
 }
 

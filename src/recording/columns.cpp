@@ -104,16 +104,23 @@ void take_vague(const Recording& recording, std::size_t k, std::vector<TakenColu
   }
 }
 
+/// A column of lengths by a name that says nothing, such as that of another language: it may be Z.
+bool is_unknown_length(const Recording& recording, std::size_t k) {
+  const RecordedColumn& column = recording.columns[k];
+  return column.is_number && !column.unit.empty() &&
+         stream_unit(RecordedRole::z, column.unit, language_of(recording)).has_value();
+}
+
 std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::string>& unclear) {
   std::vector<TakenColumn> taken;
   std::vector<std::size_t> vague;
   for (std::size_t k = 0; k < recording.columns.size(); ++k) {
     const auto named = role_of_name(recording.columns[k].name);
-    if (!named) continue;
-    if (named->vague) {
+    if (named ? named->vague : is_unknown_length(recording, k)) {
       vague.push_back(k);
       continue;
     }
+    if (!named) continue;
     if (named->gauge) {
       unclear.push_back(described(recording, k) + " is of an indicator: say X=" +
                         std::to_string(k + 1) + ", --relative and --nominal-radius-mm");
@@ -241,10 +248,12 @@ std::string columns_suggested(const Recording& recording) {
   for (const bool vague : {false, true})
     for (std::size_t k = 0; k < recording.columns.size(); ++k) {
       const auto named = role_of_name(recording.columns[k].name);
-      if (!named || named->vague != vague) continue;
+      const bool unknown = !named && is_unknown_length(recording, k);
+      if ((!named && !unknown) || (unknown || named->vague) != vague) continue;
       const std::string& unit = recording.columns[k].unit;
-      const RecordedRole role =
-          vague && stream_unit(RecordedRole::c, unit, "*") ? RecordedRole::c : named->role;
+      const RecordedRole role = unknown                                            ? RecordedRole::z
+                                : vague && stream_unit(RecordedRole::c, unit, "*") ? RecordedRole::c
+                                                                                   : named->role;
       std::string* item = role == RecordedRole::x   ? &x
                           : role == RecordedRole::c ? &c
                           : role == RecordedRole::z ? &z

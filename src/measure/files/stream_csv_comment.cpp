@@ -157,8 +157,22 @@ bool looks_like(const Known& known, const std::string& key, const Word& last,
   return false;
 }
 
-std::string quoted_line(const Known& known) {
-  return std::string("'# ").append(known.key).append(": ").append(known.example).append("'");
+/// The line as it should be, with the value that was written: another one in its place would be
+/// copied.
+std::string quoted_line(const Known& known, std::string_view value) {
+  return std::string("'# ")
+      .append(known.key)
+      .append(": ")
+      .append(value.empty() ? known.example : value)
+      .append("'");
+}
+
+/// What was assigned to the word at `n`; empty if nothing was.
+std::string_view value_after(std::span<const Word> words, std::size_t n) {
+  if (!words[n].assigned || n + 1 == words.size()) return {};
+  const std::string_view rest = words.back().written.substr(words[n].written.size());
+  const std::size_t begin = rest.find_first_not_of(" \t:=");
+  return begin == std::string_view::npos ? std::string_view() : rest.substr(begin);
 }
 
 /// The known key that the first words look like, and how they are written.
@@ -177,7 +191,7 @@ std::string misspelt(std::span<const Word> words) {
                                     ? csv_quoted(written) + " needs ':' after it: write "
                                     : csv_quoted(written) + " is not a key, did you mean " +
                                           csv_quoted(known.key) + "? Write ";
-      return wrong + quoted_line(known) + ", or '##' before free text";
+      return wrong + quoted_line(known, value_after(words, n)) + ", or '##' before free text";
     }
   }
   return "";

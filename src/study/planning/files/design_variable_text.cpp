@@ -3,6 +3,7 @@
 
 #include "base/number.hpp"
 #include "base/text.hpp"
+#include "format/nearest_key.hpp"
 #include "format/units.hpp"
 #include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
@@ -33,6 +34,7 @@ study::DesignVariable parse_design_variable(std::string_view text) {
     throw InputError(std::string(text), "is not KEY=LOW:HIGH");
   const std::string_view key = text.substr(0, equals);
   std::string known;
+  std::vector<std::string> names;
   for (const study::Choice choice : study::choices) {
     for (const KeySpelling& spelling : key_spellings(study::info_of(choice).path)) {
       const std::string_view whole = spelling.key, shorter = whole.substr(whole.find('.') + 1);
@@ -42,12 +44,15 @@ study::DesignVariable parse_design_variable(std::string_view text) {
         check_range(low, high, text);
         return {choice, low * spelling.factor, high * spelling.factor};
       }
+      names.emplace_back(shorter);
       if (spelling.key == key_spellings(study::info_of(choice).path).front().key)
         add_to_list(known, shorter);
     }
   }
-  throw InputError(std::string(text),
-                   "\"" + std::string(key) + "\" cannot be chosen; what can: " + known);
+  const std::string near = nearest_key(std::string(key), names);
+  throw InputError(std::string(text), "\"" + std::string(key) + "\" cannot be chosen" +
+                                          (near.empty() ? "." : ", did you mean " + near + "?") +
+                                          " Choose from: " + known);
 }
 
 }  // namespace trueaxis
