@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -29,5 +31,12 @@ std::string plus_minus(const Estimate& estimate, double coverage_factor, double 
 
 /// "0.98", "< 0.001", "> 0.999", "not determined".
 std::string probability(double value);
+
+/// The same for a reader, "98 %", "< 0.1 %", "> 99.9 %".
+inline std::string percent_of(double probability) {
+  if (probability < 0.001) return "< 0.1 %";
+  if (probability > 0.999 && probability < 1.0) return "> 99.9 %";
+  return fmt::format("{:.2g} %", 100.0 * probability);
+}
 
 }  // namespace trueaxis::layout

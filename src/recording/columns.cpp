@@ -104,7 +104,8 @@ void take_vague(const Recording& recording, std::size_t k, std::vector<TakenColu
   }
 }
 
-/// A column of lengths by a name that says nothing, such as that of another language: it may be Z.
+/// A column of lengths by a name that says nothing, such as that of another language: it may be Z
+/// if it is not X.
 bool is_unknown_length(const Recording& recording, std::size_t k) {
   const RecordedColumn& column = recording.columns[k];
   return column.is_number && !column.unit.empty() &&
@@ -138,7 +139,11 @@ std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::s
     take_unit(recording, one, std::nullopt, unclear);
     taken.push_back(std::move(one));
   }
-  for (const std::size_t k : vague) take_vague(recording, k, taken, unclear);
+  const bool x_is_named =
+      std::ranges::find(taken, RecordedRole::x, &TakenColumn::role) != taken.end();
+  for (const std::size_t k : vague)
+    if (x_is_named || role_of_name(recording.columns[k].name))
+      take_vague(recording, k, taken, unclear);
   return taken;
 }
 

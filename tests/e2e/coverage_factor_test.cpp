@@ -67,7 +67,7 @@ TEST_F(CoverageFactor, OfProgramsAndCauses) {
   const struct {
     std::string command, key;
   } cases[] = {
-      {"machine compensate " + machines + "blade.nc -o new.nc --errors e.toml" + of, ""},
+      {"machine compensate " + machines + "holes.nc -o new.nc --errors e.toml" + of, ""},
       {"machine diagnose " + machines + "zxacy_ball.csv --program " + machines + "blade.nc" + of,
        "program"},
       {"advise " + machines + "zxacy_ball.csv --program " + machines + "blade.nc" + of, "program"}};
@@ -77,10 +77,10 @@ TEST_F(CoverageFactor, OfProgramsAndCauses) {
       const CommandStreams ran =
           command(arguments + " --coverage-factor " + std::to_string(static_cast<int>(k)));
       ASSERT_EQ(ran.exit_code, 0) << arguments << ran.err;
-      const json found = result("r.json");
-      const json& holder = key.empty() ? found.at("U") : found.at(key);
+      const nlohmann::json found = result("r.json");
+      const nlohmann::json& holder = key.empty() ? found.at("U") : found.at(key);
       EXPECT_EQ(holder.at("coverage_factor"), k) << arguments;
-      const json& of_tip = key.empty() ? holder : holder.at("U_without_place_of_part");
+      const nlohmann::json& of_tip = key.empty() ? holder : holder.at("U_without_place_of_part");
       U.push_back(of_tip.at("value").get<double>());
     }
     EXPECT_GT(U[0], 0.0) << arguments;

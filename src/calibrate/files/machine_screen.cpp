@@ -36,8 +36,7 @@ std::string finding_screen(const MachineFinding& finding) {
   if (!finding.rivals.empty()) {
     std::vector<std::string> rivals;
     for (const Rival& rival : finding.rivals)
-      rivals.push_back(rival.effect + " (probability " + layout::probability(rival.probability) +
-                       ")");
+      rivals.push_back(rival.effect + " (" + layout::percent_of(rival.probability) + ")");
     text += "; not distinguishable from " + some_of(rivals, most_rivals) +
             (!finding.separate_with || finding.separate_with->plan.empty()
                  ? ", and no plan tells them apart"

@@ -139,8 +139,7 @@ std::vector<std::string> cause_lines(const Diagnosis& diagnosis, const Finding& 
   const auto add = [&](const std::string& id, double p) {
     const Effect* effect = diagnosis.entry(id);
     std::string line = effect ? short_title(*effect) : id;
-    if (std::isfinite(p) && !finding.rivals.empty())
-      line += " (probability " + probability(p) + ")";
+    if (std::isfinite(p) && !finding.rivals.empty()) line += " (" + percent_of(p) + ")";
     if (effect && !effect->consequence.empty()) line += ": " + std::string(effect->consequence);
     lines.push_back(line + " [" + id + "]");
   };
