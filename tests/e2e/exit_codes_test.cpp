@@ -40,7 +40,7 @@ TEST_F(ExitCodes, EachIsReturnedByItsExample) {
     if (code == cli::bug) continue;
     const CommandStreams ran = command(from_anywhere(example));
     EXPECT_EQ(ran.exit_code, code) << example << '\n' << ran.out << ran.err;
-    // Why: of a verdict that is no pass in its first line.
+    // A tolerance that is not met says so in the first line.
     EXPECT_EQ(ran.err.empty(), code <= 1) << example << '\n' << ran.err;
   }
 }
