@@ -33,7 +33,7 @@ TEST(StreamMetadata, WhatLooksLikeAKeyIsRefusedWithItsSpelling) {
       {"x_convention diameter", "x_convention: diameter"},
       {"x-convention: diameter", "x_convention: diameter"},
       {"X convention is a diameter", "x_convention: diameter"},
-      {"xconventoin: radius", "x_convention: diameter"},
+      {"xconventoin: radius", "x_convention: radius"},
       {"- ball_radius: 1.5 mm", "ball_radius: 1.5 mm"},
       {"ball radius 1.5 mm", "ball_radius: 1.5 mm"},
       {"Ball radius = 1.5 mm", "ball_radius: 1.5 mm"},

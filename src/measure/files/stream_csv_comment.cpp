@@ -167,12 +167,15 @@ std::string quoted_line(const Known& known, std::string_view value) {
       .append("'");
 }
 
-/// What was assigned to the word at `n`; empty if nothing was.
+/// The word that was assigned at `n`; empty if nothing was, or a number, whose unit or meaning may
+/// be that of another key.
 std::string_view value_after(std::span<const Word> words, std::size_t n) {
   if (!words[n].assigned || n + 1 == words.size()) return {};
   const std::string_view rest = words.back().written.substr(words[n].written.size());
   const std::size_t begin = rest.find_first_not_of(" \t:=");
-  return begin == std::string_view::npos ? std::string_view() : rest.substr(begin);
+  if (begin == std::string_view::npos || rest.find_first_of("0123456789") != std::string_view::npos)
+    return {};
+  return rest.substr(begin);
 }
 
 /// The known key that the first words look like, and how they are written.
