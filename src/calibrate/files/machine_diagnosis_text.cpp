@@ -19,7 +19,7 @@ std::string finding_text(const MachineFinding& finding) {
   text += layout::wrapped("  ", finding.cause.consequence);
   if (finding.rivals.empty()) return text;
   const auto with_probability = [](const Rival& rival) {
-    return rival.effect + " (" + layout::probability(rival.probability) + ")";
+    return rival.effect + " (" + layout::percent_of(rival.probability) + ")";
   };
   text += layout::wrapped("  not told from ", word_list(finding.rivals, ", ", with_probability));
   const std::string plan = finding.separate_with ? finding.separate_with->plan : "";
