@@ -199,6 +199,27 @@ TEST_F(CorrectCommand, AFitHasItsDiagnosisBesideItOrSaysThatItHasNone) {
   EXPECT_TRUE(contains(bare.err, "nothing looked for slips")) << bare.err;
 }
 
+// The material between the cone and the target comes from the radius at mid length, which a fit
+// that is read back has too.
+TEST_F(CorrectCommand, OfAConeItKnowsTheStock) {
+  const std::string stream = places::source() + "/data/streams/shaft_cone_seat.csv";
+  const std::string target =
+      "[target]\nsurface = \"cylinder\"\nradius_mm = 24\nz_start_mm = 40\nz_end_mm = 10\n"
+      "coaxiality_tolerance_um = 20\nstock_um = ";
+  const std::string cut = "\n[cut]\nspeed_rpm = 600\nsense = \"+c\"\nfeed_mm_per_rev = 0.1\n";
+  ASSERT_EQ(command("diagnose " + stream + " --surface cone --loss tukey --json cone.json")
+                .exit_code,
+            0);
+  file("little.toml", target + "1" + cut);
+  const CommandStreams little = command("table cone.json --target little.toml -o cone.csv");
+  EXPECT_EQ(little.exit_code, 1) << little.err;
+  EXPECT_TRUE(contains(little.err, "stock")) << little.err;
+  file("much.toml", target + "20000" + cut);
+  const CommandStreams much = command("table cone.json --target much.toml -o cone.csv");
+  EXPECT_EQ(much.exit_code, 0) << much.err;
+  EXPECT_TRUE(there("cone.csv"));
+}
+
 TEST_F(CorrectCommand, TableIsThatOfTheWholeJob) {
   ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
   std::filesystem::create_directories(folder_ / "a/b c");

@@ -21,8 +21,8 @@ Json fit_object(const FitResult& result);
 Json rejected_json(const std::vector<Rejected>& rows);
 std::vector<Rejected> rejected_from(const Json& json);
 
-/// The fit that `fit_object` wrote, but for what only its readings can tell: no residuals, budget,
-/// derived quantities or covariance of the parameters; of each set-up the axis. One that did not
+/// The fit that `fit_object` wrote, but for what only its readings can tell: no residuals, budget
+/// or covariance of the parameters; of each set-up the axis. One that did not
 /// converge has no numbers. @throws Json::exception and InputError for what is not a fit.
 FitResult fit_from_object(const Json& json);
 

@@ -218,6 +218,7 @@ FitResult fit_from_object(const Json& json) {
     read(set_up.at("parameters"), fit.set_ups.back().parameters);
   }
   read(json.at("parameters"), fit.parameters);
+  read(json.at("derived"), fit.derived);
   fit.notes = json.at("notes").get<std::vector<std::string>>();
   fit.rms_mm = value(json, "rms");
   const Json& noise = json.at("noise");

@@ -22,6 +22,8 @@ struct Limits {
 };
 constexpr Limits any{}, positive{0.0, infinity, true}, not_negative{0.0, infinity, false},
     fraction{0.0, 1.0, false}, cosine{-1.0, 1.0, true};
+// As a scenario's file has them.
+constexpr Limits set_up_cosine{-0.7, 0.7, true}, with_a_variance{2.0, infinity, true};
 
 /// A number in its place; a travel is written through its pass.
 struct Place {
@@ -92,7 +94,7 @@ void visit_probe_and_noise(Scenario& scenario, const Visit& visit) {
   std::size_t order = 0;
   for (double& phi : noise.autoregression)
     visit("noise.autoregression." + std::to_string(order++), any, at(phi));
-  visit("noise.student_dof", not_negative, at(noise.student_dof));
+  visit("noise.student_dof", with_a_variance, at(noise.student_dof));
   visit("noise.incidence", not_negative, at(noise.incidence));
   visit("noise.outlier_fraction", fraction, at(noise.outlier_fraction));
   visit("noise.outlier_size_mm", not_negative, at(noise.outlier_size_mm));
@@ -135,8 +137,8 @@ void visit_lists(Scenario& scenario, const Visit& visit) {
     visit(prefix + "clamp_force_ratio", not_negative, at(setup.clamp_force_ratio));
     visit(prefix + "x0_mm", any, at(setup.x0_mm));
     visit(prefix + "y0_mm", any, at(setup.y0_mm));
-    visit(prefix + "l", cosine, at(setup.l));
-    visit(prefix + "m", cosine, at(setup.m));
+    visit(prefix + "l", set_up_cosine, at(setup.l));
+    visit(prefix + "m", set_up_cosine, at(setup.m));
   }
   index = 0;
   for (virtual_lathe::Effect& effect : scenario.effects) {
