@@ -188,3 +188,51 @@ def test_commands_in_threads_do_not_mix_their_words():
         thread.join()
     for goal_um, found in results.items():
         assert f"{goal_um:g} µm" in str(found)
+
+
+def test_a_value_that_is_hidden_missing_or_no_number_is_no_reading():
+    pandas = pytest.importorskip("pandas")
+    x, c, z = cylinder()
+    hidden = np.ma.masked_greater(x + np.where(np.arange(len(x)) == 7, 5.0, 0.0), 24.0)
+    missing = pandas.Series(x).astype("Float64")
+    missing[7] = pandas.NA
+    for broken in (hidden, missing):
+        with pytest.raises(ta.InputError, match="arrays:8"):
+            ta.fit(broken, c, z, surface="cylinder", **UNITS)
+        assert len(ta.stream(broken, c, z, drop_invalid=True, **UNITS)) == len(x) - 1
+    for broken in (x + 0j, ["a"] * len(x), x > 0):
+        with pytest.raises(ta.InputError, match="X_M.*numbers"):
+            ta.fit(broken, c, z, surface="cylinder", **UNITS)
+    with pytest.raises(ta.InputError, match="t.*numbers"):
+        ta.fit(x, c, z, surface="cylinder", t_s=pandas.date_range("2026-01-01", periods=len(x)), **UNITS)
+
+
+def test_columns_whose_indexes_differ_are_not_mixed_up():
+    pandas = pytest.importorskip("pandas")
+    x, c, z = (pandas.Series(one) for one in cylinder())
+    kept = z > 5.0
+    ta.fit(x[kept], c[kept], z[kept], surface="cylinder", **UNITS)
+    with pytest.raises(ta.InputError, match="indexes"):
+        ta.fit(x.sort_values(), c, z, surface="cylinder", **UNITS)
+
+
+@pytest.mark.parametrize("readings", ["a.csv", cylinder()[0]])
+def test_an_argument_that_is_not_there_is_named(readings):
+    with pytest.raises(ta.InputError, match="zunit.*it takes"):
+        ta.fit(readings, surface="cylinder", zunit="mm")
+    with pytest.raises(ta.InputError, match="radius: .*radius_mm"):
+        ta.plan(surface="cylinder", radius=20.0, goal_um=1.0)
+
+
+def test_a_refusal_says_why():
+    """The part slips by 40 µm in the middle of the readings."""
+    x, c, z = cylinder(800)
+    moved = x + np.where(np.arange(len(x)) < 400, 0.0, 0.04) * np.cos(c)
+    with pytest.raises(ta.Refused, match="(?s)not known.*slipped") as error:
+        ta.fit(moved + np.random.default_rng(1).normal(0.0, 1e-3, len(x)), c, z, surface="cylinder", **UNITS)
+    assert error.value.result.to_dict()["parameters"]["x0"]["value"] is None
+
+
+def test_messages_about_a_dictionary_name_no_file_that_is_gone():
+    with pytest.raises(ta.InputError, match="^sweep.toml:1"):
+        ta.sweep({"sweep": {"surface": "cone"}})

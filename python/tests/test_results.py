@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Results: values, units, arrays and JSON, against the truth of made readings and against the command."""
+import copy
+import html
 import json
 import os
+import pickle
 import subprocess
 from pathlib import Path
 
@@ -129,8 +132,10 @@ def test_pandas_has_every_quantity():
 
 
 def test_a_notebook_shows_headline_and_chart():
-    page = ta.diagnose(STREAM, surface="cone")._repr_html_()
-    assert page.startswith("<pre>") and "<svg" in page and "&amp;" not in page.split("</pre>")[0].replace("&amp;", "", 0)
+    found = ta.diagnose(STREAM, surface="cone")
+    said, chart = found._repr_html_().split("</pre>")
+    assert said.startswith("<pre") and str(found).splitlines()[0] in html.unescape(said)
+    assert chart.startswith("<svg") and "max-width: 100%" in chart.split(">")[0]
 
 
 def test_points_are_associated():
@@ -185,3 +190,45 @@ def test_a_correction_is_that_of_a_job(tmp_path):
     assert expected.shape == here.shape and len(here) == len(found.wanted_mm)
     assert np.abs(expected - here).max() <= 1e-6  # the last printed digit of Z and C
     assert found.plot().axes
+
+
+def test_nothing_of_a_result_can_be_changed_or_taken_out():
+    x, c, z = cone()
+    fit = ta.fit(x, c, z, surface="cone", **UNITS)
+    for change in (lambda: delattr(fit, "stream"), lambda: delattr(fit.axis, "x"), lambda: delattr(fit.axis, "_items")):
+        with pytest.raises(AttributeError):
+            change()
+    for change in (lambda: fit.axis._items.update(x=1), lambda: fit.files.update(a="b")):
+        with pytest.raises(AttributeError):
+            change()
+    with pytest.raises(ValueError):
+        fit.covariance.matrix.flags.writeable = True
+
+
+def test_parts_are_copied_and_pickled_and_a_result_says_why_not():
+    x, c, z = cone()
+    fit = ta.fit(x, c, z, surface="cone", **UNITS)
+    assert copy.copy(fit) is fit and copy.deepcopy(fit) is fit
+    for part in (fit.x0, fit.axis):
+        for other in (copy.deepcopy(part), pickle.loads(pickle.dumps(part))):
+            assert str(other) == str(part)
+    covariance = pickle.loads(pickle.dumps(fit.covariance))
+    assert np.array_equal(covariance.matrix, fit.covariance.matrix) and not covariance.matrix.flags.writeable
+    with pytest.raises(TypeError, match="to_dict"):
+        pickle.dumps(fit)
+    assert dict(fit.axis)["x"] == fit.axis.x
+
+
+def test_a_quantity_takes_a_format():
+    one = ta.Quantity(1.23456, 0.01, "mm")
+    assert f"{one:.2f}" == "1.23" and f"{one}" == "1.235 ± 0.020 mm"
+
+
+def test_a_figure_has_titles_units_and_a_closed_curve():
+    x, c, z = cone()
+    for figure in (ta.fit(x, c, z, surface="cone", **UNITS).plot(), ta.form(x, c, z, **UNITS).plot()):
+        for axes in figure.axes:
+            said = axes.get_title() + axes.get_xlabel() + axes.get_ylabel()
+            assert "µm" in said or "mm" in said, said
+    profile = figure.axes[0].lines[-1].get_xydata()
+    assert np.array_equal(profile[0], profile[-1])

@@ -9,7 +9,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from . import _core
-from ._errors import ended
+from ._errors import InputError, ended
 from ._result import Result
 from ._streams import Path
 from ._toml import Document, as_file
@@ -33,10 +33,10 @@ def _options(given: Mapping[str, Any]) -> list[str]:
 
 
 def _run(words: Sequence[str], doing: str, progress: Progress, json: FilePath, folder: FilePath | None = None,
-         verdict: bool = False) -> Result:
+         verdict: bool = False, scratch: bool = False) -> Result:
     """Runs a command and returns what it wrote.
 
-    ``verdict``: exit code 1 with a result is an answer, not an error.
+    ``verdict``: exit code 1 with a result is an answer, not an error. ``scratch``: nothing stays in the folder.
     """
     with Shown(doing, progress) as shown:
         code, screen, said = _core.command(list(words), shown)
@@ -45,7 +45,9 @@ def _run(words: Sequence[str], doing: str, progress: Progress, json: FilePath, f
         if path.is_file() and path.suffix != ".bin":
             files[path.name] = path.read_text(encoding="utf-8")
     text = json.read_text(encoding="utf-8") if json.is_file() else ""
-    result = Result(lambda: text, lambda: str(screen), None, None, files) if text else None
+    if folder is not None and scratch:  # it is gone when the screen is read: its files are result.files
+        screen, said = (one.replace(f"{folder}{os.sep}", "") for one in (screen, said))
+    result = Result(lambda: text, lambda: screen, None, None, files) if text else None
     if result is None or code > 1 or (code == 1 and not verdict):
         raise ended(code, said, result)
     return result
@@ -73,8 +75,11 @@ def run_job(job: Document, output: Path | None = None, *, force: bool = False, p
     """
     with tempfile.TemporaryDirectory() as scratch, as_file(job, "job.toml") as path:
         folder = FilePath(scratch, "result") if output is None else FilePath(output)
-        words = ["run", path, "-o", str(folder), "--verbose", *_options({"force": force})]
-        return _run(words, "job", progress, folder / "result.json", folder, verdict=True)
+        words = ["run", path, "-o", str(folder), *_options({"force": force})]
+        return _run(words, "job", progress, folder / "result.json", folder, verdict=True, scratch=output is None)
+
+
+_PART = ("surface", "radius_mm", "half_angle_deg", "length_mm", "feed_mm", "per_revolution", "speed_rpm", "sigma_um")
 
 
 def plan(scenario: Document | None = None, *, goal_um: float, free: Mapping[str, tuple[float, float]] | None = None,
@@ -109,6 +114,9 @@ def plan(scenario: Document | None = None, *, goal_um: float, free: Mapping[str,
     Result
         ``trueaxis.plan/1``. ``status`` may be "not_reached": that is an answer and no error.
     """
+    unknown = [name for name in part if name not in _PART]
+    if unknown or (part and scenario is not None):
+        raise InputError(f"{', '.join(unknown or part)}: a plan takes either a scenario or {', '.join(_PART)}")
     ranges = [f"{key}={low}:{high}" for key, (low, high) in (free or {}).items()]
     given = dict(goal_um=goal_um, free=ranges, coverage_factor=coverage_factor, time_s=time_s, rate_hz=rate_hz,
                  repeats=repeats, seed=seed, threads=threads, **part)
@@ -146,7 +154,7 @@ def sweep(sweep: Document, output: Path | None = None, *, threads: int = 0, forc
     with tempfile.TemporaryDirectory() as scratch, as_file(sweep, "sweep.toml") as path:
         folder = FilePath(scratch, "result") if output is None else FilePath(output)
         words = ["study", "sweep", path, "-o", str(folder), *_options({"threads": threads, "force": force})]
-        return _run(words, "sweep", progress, folder / "sweep.json", folder)
+        return _run(words, "sweep", progress, folder / "sweep.json", folder, scratch=output is None)
 
 
 def _on_machine(command: str, inputs: Sequence[str], machine: Document, written: str, doing: str,
@@ -157,7 +165,7 @@ def _on_machine(command: str, inputs: Sequence[str], machine: Document, written:
         json = FilePath(scratch, "result.json")
         words = ["machine", command, *inputs, "--machine", path, *_options(given), "-o", str(folder / written),
                  "--json", str(json)]
-        return _run(words, doing, progress, json, folder)
+        return _run(words, doing, progress, json, folder, scratch=True)
 
 
 def calibrate(measurements: Path | Sequence[Path], machine: Document, *, errors: Sequence[Path] = (),

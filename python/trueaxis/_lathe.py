@@ -57,14 +57,16 @@ def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | N
     progress : callable, optional
         Called with the seconds since the beginning; what it raises ends the work.
     **units
-        ``x_unit``, ``c_unit``, ``z_unit`` and all else that :func:`stream` (arrays) or :func:`read`
-        (a path) takes.
+        For arrays: ``x_unit`` ("mm radius" or "mm diameter"; um, m and in too), ``c_unit`` ("deg", "rad"
+        or "rev"), ``z_unit`` ("mm", "um", "m" or "in") and all else that :func:`stream` takes. For a
+        path: ``x`` ("radius" or "diameter"), ``columns`` and all else that :func:`read` takes.
 
     Returns
     -------
     Result
         ``trueaxis.fit/1``. Parameters are attributes with ``value``, ``u``, ``U`` and ``unit``;
-        ``covariance`` has ``names`` and ``matrix``; ``residual_mm`` has shape (n,).
+        ``covariance`` has ``names`` and ``matrix``; ``residual_mm`` (reading less surface) has shape (n,).
+        ``x0`` and ``y0`` are those of the axis at Z = 0: x ≈ radius + x0 cos C + y0 sin C.
 
     Raises
     ------
@@ -145,7 +147,7 @@ def form(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | 
         ``trueaxis.form/1``; arrays ``angle_rad_0``, ``raw_mm_0``, ``filtered_mm_0`` of the first section,
         ``…_1`` of the next, before and after the filter.
     """
-    if not 1.0 <= band_upr[0] < band_upr[1] <= 1500.0:
+    if np.shape(band_upr) != (2,) or not 1.0 <= band_upr[0] < band_upr[1] <= 1500.0:
         raise InputError(f"band_upr: {band_upr} is not a pass band such as (1, 50)")
     options = _core.FormOptions(
         filter, (float(band_upr[0]), float(band_upr[1])), bore, number("ball_radius_mm", ball_radius_mm, 0.0),

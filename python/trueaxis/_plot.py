@@ -20,7 +20,7 @@ _UM = 1000.0
 _LINE, _OTHER, _GREY = "#1f5fa8", "#c8501e", "#808080"  # told apart in print and without colour vision
 
 
-def _over_c_and_z(axes: Axes, result: Result, residual_mm: Any) -> None:
+def _over_c_and_z(axes: Axes, result: Result, residual_mm: Any, title: str) -> None:
     """Residuals over C and Z, µm; of one section over C alone."""
     stream = result.stream
     assert stream is not None
@@ -34,24 +34,35 @@ def _over_c_and_z(axes: Axes, result: Result, residual_mm: Any) -> None:
     else:
         axes.plot(c_deg, residual_um, ".", ms=2, color=_LINE)
         axes.set_ylabel("residual, µm")
-    axes.set(title="Residuals", xlabel="C, degrees", xlim=(0, 360))
+    axes.set(title=title, xlabel="C, degrees", xlim=(0, 360), xticks=range(0, 361, 90))
 
 
 def _polar(axes: Axes, angle_rad: Any, values_mm: Any, title: str, **style: Any) -> None:
     """A profile about a circle, in µm, magnified so that its range is a third of the radius."""
-    values_um = _UM * np.asarray(values_mm)
+    angle_rad, values_um = np.asarray(angle_rad), _UM * np.asarray(values_mm)
+    if style.get("ls") != "":  # a curve is closed
+        angle_rad, values_um = np.append(angle_rad, angle_rad[:1]), np.append(values_um, values_um[:1])
     axes.plot(angle_rad, values_um, **{"lw": 0.8, "color": _LINE, **style})
     span = float(np.ptp(values_um)) or 1.0
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, values_um.min() - 2.0 * span), max(high, values_um.max() + 0.2 * span))
     axes.set_title(title)
+    low, high = axes.get_ylim()
+    step = 10.0 ** np.floor(np.log10(span))
+    step *= next(times for times in (1.0, 2.0, 5.0) if span <= 2.0 * times * step or times == 5.0)
+    axes.set_yticks([tick for tick in (-step, 0.0, step) if low < tick < high])
     axes.tick_params(labelsize=7)
+    axes.set_rlabel_position(22.5)
+    axes.set_axisbelow(False)  # circles and their values are read above the points
+    axes.grid(lw=0.5, alpha=0.6)
+    for label in axes.get_yticklabels():
+        label.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5})
 
 
 def _round(axes: Axes, result: Result, residual_mm: Any) -> None:
     assert result.stream is not None
     angle = result.stream.c_rad % (2.0 * np.pi)
-    _polar(axes, angle, residual_mm, "Roundness, µm", ls="", marker=".", ms=2)
+    _polar(axes, angle, residual_mm, "The same around C, µm", ls="", marker=".", ms=2)
 
 
 def _axis(axes: Axes, fit: Any) -> None:
@@ -67,14 +78,18 @@ def _axis(axes: Axes, fit: Any) -> None:
         axes.plot(z, _UM * value, color=colour, label=name)
         axes.fill_between(z, _UM * (value - k * u), _UM * (value + k * u), color=colour, alpha=0.25, lw=0)
     axes.set(title=f"Axis ± U (k = {k:g})", xlabel="Z, mm", ylabel="offset from the spindle axis, µm")
+    if not high > low:
+        axes.set(xlabel="one section", xticks=[])
     axes.legend(frameon=False)
 
 
 def _spectrum(axes: Axes, result: Result) -> None:
     axes.vlines(result.spectrum_order, 0, _UM * result.spectrum_before_mm, color=_GREY, lw=2, label="before")
     axes.vlines(result.spectrum_order, 0, _UM * result.spectrum_after_mm, color=_LINE, lw=1, label="after")
-    axes.set(title="Spectrum of the residuals", xlabel="undulations per revolution", ylabel="amplitude, µm")
-    axes.legend(frameon=False)
+    largest = _UM * max(*result.spectrum_before_mm, *result.spectrum_after_mm, 0.0, 1e-9)
+    axes.set(title="Spectrum of the residuals", xlabel="undulations per revolution", ylabel="amplitude, µm",
+             ylim=(0.0, 1.25 * largest))
+    axes.legend(frameon=False, ncols=2, loc="upper right")
 
 
 def _figure(*kinds: str) -> tuple[Figure, list[Axes]]:
@@ -87,7 +102,7 @@ def _figure(*kinds: str) -> tuple[Figure, list[Axes]]:
 
 def _of_fit(result: Result) -> Figure:
     figure, (over, around, axis) = _figure("", "polar", "")
-    _over_c_and_z(over, result, result.residual_mm)
+    _over_c_and_z(over, result, result.residual_mm, "Residuals")
     _round(around, result, result.residual_mm)
     if result.stream is not None and result.stream.is_face:
         figure.delaxes(axis)
@@ -98,7 +113,7 @@ def _of_fit(result: Result) -> Figure:
 
 def _of_diagnosis(result: Result) -> Figure:
     figure, (over, around, spectrum, axis) = _figure("", "polar", "", "")
-    _over_c_and_z(over, result, result.residual_before_mm)
+    _over_c_and_z(over, result, result.residual_before_mm, "Residuals of the ideal fit")
     _round(around, result, result.residual_before_mm)
     _spectrum(spectrum, result)
     if result.stream is not None and result.stream.is_face:
@@ -112,9 +127,11 @@ def _of_form(result: Result) -> Figure:
     figure, (around,) = _figure("polar")
     section = len(result.sections) // 2
     angle, raw, filtered = (getattr(result, f"{name}_{section}") for name in ("angle_rad", "raw_mm", "filtered_mm"))
-    _polar(around, angle, raw, "", color=_GREY, label="raw")
-    _polar(around, angle, filtered, f"Section {section + 1}, µm", lw=1.6, label="filtered")
-    around.legend(frameon=False, loc="lower left", fontsize=7)
+    at = result.sections[section]
+    where = f" at Z {at.z.value:.4g} mm" if "z" in at and not np.isnan(float(at.z)) else ""
+    _polar(around, angle, raw, "", color=_GREY, lw=2.4, label="before the filter")
+    _polar(around, angle, filtered, f"Profile{where}, µm", label="after the filter")
+    around.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.08), ncols=2, fontsize=8)
     return figure
 
 
@@ -151,11 +168,12 @@ _KINDS: dict[str, Callable[[Result], Figure]] = {
 
 
 def figure_of(result: Result) -> Figure:
-    """Returns the figure of a result.."""
+    """Returns the figure of a result."""
     kind = str(result.schema).split("/")[0]
     draw = _KINDS.get(kind)
     if draw is None or result._outcome is None or (kind == "trueaxis.run" and not len(result.c_rad)):
-        raise TrueAxisError(f"{result.schema} has no figure; its report may: result.files")
+        files = ", ".join(result.files) or "none"
+        raise TrueAxisError(f"{result.schema} has no figure; its report may, if result.files has one (there: {files})")
     return draw(result)
 
 
@@ -167,4 +185,4 @@ def svg_of(result: Result) -> str:
     except (ImportError, TrueAxisError):
         return ""
     svg = text.getvalue()
-    return svg[svg.index("<svg"):]
+    return svg[svg.index("<svg"):].replace("<svg", '<svg style="max-width: 100%; height: auto"', 1)

@@ -64,12 +64,25 @@ class Result:
     def __init__(self, make: Callable[[], str], screen: Callable[[], str], stream: Stream | None = None,
                  outcome: _core.Outcome | None = None, files: Mapping[str, str] = MappingProxyType({})) -> None:
         for name, value in (("_make", make), ("_screen", screen), ("_outcome", outcome), ("_json", None),
-                            ("_tree", None), ("files", files if outcome is None else _Files(outcome)),
+                            ("_tree", None),
+                            ("files", MappingProxyType(dict(files)) if outcome is None else _Files(outcome)),
                             ("stream", stream)):
             object.__setattr__(self, name, value)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError("a result does not change")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError("a result does not change")
+
+    def __copy__(self) -> Result:
+        return self  # it does not change
+
+    def __deepcopy__(self, _: Any) -> Result:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("a result belongs to this process and is not pickled: keep to_dict() or to_json(), and arrays")
 
     def to_json(self) -> str:
         """Returns the text that the command writes with ``--json``."""
@@ -88,7 +101,7 @@ class Result:
         return self._tree
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
+        if name.startswith("_"):
             raise AttributeError(name)
         if self._outcome is not None and name in self._outcome.arrays:
             return self._outcome.array(name)
@@ -102,6 +115,11 @@ class Result:
         """Those whose names are attributes of the result too."""
         tree = self._all()
         return [tree[name] for name in ("parameters", "derived") if name in tree and isinstance(tree[name], Node)]
+
+    def _reasons(self, code: int) -> list[str]:
+        """Why the parameters of a refused result are not known; other errors say why themselves."""
+        parts = self._parts() if code == 1 else []
+        return list(dict.fromkeys(one.why for part in parts for _, one in quantities(part) if one.why))
 
     def _names(self) -> list[str]:
         arrays = [] if self._outcome is None else self._outcome.arrays
@@ -137,12 +155,12 @@ class Result:
         return f"<{self.schema}: {lines[0] if lines else ''}>"
 
     def _repr_html_(self) -> str:
-        return f"<pre>{html.escape(str(self))}</pre>" + _plot.svg_of(self)
+        return f'<pre style="white-space: pre-wrap">{html.escape(str(self))}</pre>' + _plot.svg_of(self)
 
 
 def result_of(outcome: _core.Outcome, stream: Stream | None = None) -> Result:
     """Returns the result of an outcome, or raises what the command ends with."""
     result = Result(outcome.json, outcome.screen, stream, outcome)
     if outcome.code != 0:
-        raise ended(outcome.code, outcome.why, result)
+        raise ended(outcome.code, "\n".join([outcome.why, *result._reasons(outcome.code)]), result)
     return result

@@ -24,8 +24,32 @@ _SAY_X = ('say what x is: x_unit="mm radius" or "mm diameter" (um, m and in too)
           'c_unit="deg", "rad" or "rev", z_unit="mm"')
 
 
+def _numbers(name: str, column: Any) -> Floats:
+    """Returns a column as numbers; a value that is hidden or missing is NaN, which no fit takes for a reading."""
+    if isinstance(column, np.ma.MaskedArray):
+        masked: Any = column
+        column = masked.astype(np.float64).filled(np.nan)
+    try:
+        given = column if hasattr(column, "dtype") else np.asarray(column)
+        if getattr(given.dtype, "kind", "f") in "mMcb":
+            raise ValueError(f"it is {given.dtype}")
+        if hasattr(given, "isna"):  # of pandas, whose missing values may be no floats
+            given = given.to_numpy(dtype=np.float64, na_value=np.nan)
+        return np.ascontiguousarray(given, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name}: not a column of numbers: {error}") from None
+
+
+def _expect_same_rows(columns: Mapping[str, Any]) -> None:
+    """Readings go together by position. Series whose indexes differ would be mixed up."""
+    indexes = [column.index for column in columns.values() if hasattr(column, "isna")]
+    if any(len(one) == len(indexes[0]) and not one.equals(indexes[0]) for one in indexes):
+        raise InputError("the indexes of the columns differ: take them from one table, or give x.to_numpy() and so on "
+                         "if they go together by position")
+
+
 def _x_header(name: str, x_unit: str) -> str:
-    unit, _, kind = x_unit.partition(" ")
+    unit, _, kind = str(x_unit).partition(" ")
     if kind not in ("radius", "diameter"):
         raise InputError(f"x_unit {x_unit!r}: {_SAY_X}")
     return f"{name}[{unit} dia]" if kind == "diameter" else f"{name}[{unit}]"
@@ -34,8 +58,13 @@ def _x_header(name: str, x_unit: str) -> str:
 def _named_columns(x: npt.ArrayLike, c: npt.ArrayLike | None, z: npt.ArrayLike | None, t_s: npt.ArrayLike | None,
                    x_unit: str | None, c_unit: str | None, z_unit: str | None,
                    several: bool) -> dict[str, npt.ArrayLike]:
-    if x_unit is None or c is None or c_unit is None or (z is not None and z_unit is None):
-        raise InputError(_SAY_X)
+    if c is None:
+        raise InputError("c is missing: give x, c and z as three arrays, as table[:, 0], table[:, 1], table[:, 2]; or a "
+                         "DataFrame or dictionary whose names say what they are: X_M[mm dia], C[deg], Z[mm]")
+    units = {"x_unit": x_unit is None, "c_unit": c_unit is None, "z_unit": z is not None and z_unit is None}
+    left_out = [name for name, missing in units.items() if missing]
+    if x_unit is None or left_out:
+        raise InputError(f"{', '.join(left_out)} missing; {_SAY_X}")
     if several:
         sensors = np.asarray(x, dtype=np.float64)
         if sensors.ndim != 2:
@@ -87,7 +116,8 @@ def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | No
     metadata : Mapping, optional
         Further keys of a stream: ``{"sensor_noise": "2 um", "spindle_rpm": 60}``.
     drop_invalid : bool
-        Leave out rows that are NaN.
+        Leave out rows with a value that is NaN, infinite, missing or masked. Arrays of the result then
+        have the rows that are left, as ``stream.reading_mm`` has.
     source : str
         Name of the readings in messages and results.
 
@@ -108,24 +138,26 @@ def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | No
     if isinstance(x, Mapping) or hasattr(x, "columns"):
         named: Any = x
         if x_unit is not None or c is not None:
-            raise InputError("the names of the columns say their units: leave c, z and the units out")
+            raise InputError("the names of a table's columns say their units, X_M[mm dia], C[deg], Z[mm]: leave c, z and "
+                             "the units out; or give its columns with their units: table[\"x\"], table[\"c\"], table[\"z\"]")
         names = [str(name) for name in (named if isinstance(x, Mapping) else named.columns)]
         columns = {name: named[name] for name in names}
         is_face = any(name.lstrip().startswith("Z_M") for name in names)
     else:
         columns = _named_columns(x, c, z, t_s, x_unit, c_unit, z_unit, several)
         is_face = False
-    numbers = [np.ascontiguousarray(column, dtype=np.float64) for column in columns.values()]
+    numbers = [_numbers(name, column) for name, column in columns.items()]
     sizes = [one.shape for one in numbers]
     if any(one.ndim != 1 for one in numbers) or len(set(sizes)) != 1:
         given = ", ".join(f"{name} {size}" for name, size in zip(columns, sizes))
         raise InputError(f"columns must be one-dimensional and of equal length, but are {given}")
+    _expect_same_rows(columns)
     radius = x_unit is not None and x_unit.endswith("radius")
     said = "".join(f"# {key}: {value}\n" for key, value in (metadata or {}).items())
     made = _core.stream_of(said + ",".join(columns) + "\n", numbers, source, False if radius else None, relative,
                            nominal_radius_mm, drop_invalid, list(sensor_angles_deg))
     if not made.x_said and not is_face and x_unit is None:
-        raise InputError(f"say what X_M is: name the column X_M[mm dia], or metadata={{'x_convention': 'radius'}}")
+        raise InputError("say what X_M is: name the column X_M[mm dia], or metadata={'x_convention': 'radius'}")
     return made
 
 
@@ -156,6 +188,13 @@ def read(path: Path, *, x: str | None = None, relative: bool = False, nominal_ra
                              list(sensor_angles_deg))
 
 
+def _expect_known(function: Any, given: str, units: Mapping[str, Any]) -> None:
+    known = function.__kwdefaults__
+    unknown = [name for name in units if name not in known]
+    if unknown:
+        raise InputError(f"{', '.join(unknown)}: there is no such argument for {given}; it takes {', '.join(known)}")
+
+
 def taken(readings: Any, c: Any, z: Any, units: dict[str, Any]) -> Stream:
     """Returns the stream that a function was given, whatever it was given as."""
     if isinstance(readings, Stream):
@@ -163,7 +202,11 @@ def taken(readings: Any, c: Any, z: Any, units: dict[str, Any]) -> Stream:
             raise InputError("a stream has its units: leave c, z and the units out")
         return readings
     if isinstance(readings, (str, os.PathLike)):
+        if c is not None or z is not None:
+            raise InputError("a file has its own columns: leave c and z out")
+        _expect_known(read, "a file, whose header says its units", units)
         return read(readings, **units)
+    _expect_known(stream, "arrays", units)
     return stream(readings, c, z, **units)
 
 

@@ -11,7 +11,7 @@ from typing import Any, Union
 
 import numpy as np
 
-from ._errors import InputError
+from ._errors import InputError, TrueAxisError
 from ._streams import Path
 
 Document = Union[Path, Mapping[str, Any]]
@@ -67,7 +67,11 @@ def as_file(document: Document, name: str) -> Iterator[str]:
         path = os.path.join(folder, name)
         with open(path, "w", encoding="utf-8") as file:
             file.write(to_toml(document))
-        yield path
+        try:
+            yield path
+        except TrueAxisError as error:
+            error.args = (str(error).replace(path, name),)  # the file is not there when the error is read
+            raise
 
 
 def as_text(document: Document, name: str) -> tuple[str, str]:

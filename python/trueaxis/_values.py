@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -50,6 +51,10 @@ class Quantity:
     def __float__(self) -> float:
         return self.value
 
+    def __format__(self, form: str) -> str:
+        """A format such as ``.3f`` is that of the value; without one the uncertainty and unit are there."""
+        return format(self.value, form) if form else str(self)
+
     def __str__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
         if math.isnan(self.value):
@@ -60,7 +65,7 @@ class Quantity:
         return f"{self.value:.{decimals}f} ± {self.U:.{decimals}f}{unit}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Covariance:
     """A covariance matrix with the names of its rows.
 
@@ -74,6 +79,14 @@ class Covariance:
 
     names: tuple[str, ...]
     matrix: Floats
+
+    def __post_init__(self) -> None:
+        entries = np.asarray(self.matrix, dtype=np.float64)
+        of_bytes = np.frombuffer(entries.tobytes(), dtype=np.float64)  # cannot be made writeable
+        object.__setattr__(self, "matrix", of_bytes.reshape(entries.shape))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Covariance, (self.names, self.matrix)
 
     def between(self, first: str, second: str) -> float:
         """Returns the covariance of two quantities by name."""
@@ -89,10 +102,17 @@ class Node:
     """A part of a result: ``node.name`` and ``node["name"]`` are the same; ``list(node)`` are its names."""
 
     __slots__ = ("_items",)
-    _items: dict[str, Any]
+    _items: Mapping[str, Any]
 
-    def __init__(self, items: dict[str, Any]) -> None:
-        object.__setattr__(self, "_items", items)
+    def __init__(self, items: Mapping[str, Any]) -> None:
+        object.__setattr__(self, "_items", MappingProxyType(dict(items)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Node, (dict(self._items),)
+
+    def keys(self) -> Iterator[str]:
+        """Returns the names, so that ``dict(node)`` works."""
+        return iter(self._items)
 
     def __getitem__(self, name: str) -> Any:
         return self._items[name]
@@ -107,7 +127,7 @@ class Node:
         return name in self._items
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
+        if name.startswith("_"):
             raise AttributeError(name)
         try:
             return self._items[name]
@@ -115,6 +135,9 @@ class Node:
             raise AttributeError(f"{name}; there is {', '.join(self._items)}") from None
 
     def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError("a result does not change")
+
+    def __delattr__(self, name: str) -> None:
         raise AttributeError("a result does not change")
 
     def __dir__(self) -> list[str]:
@@ -140,9 +163,7 @@ def frozen(json: Any, k: float = 2.0) -> Any:
         return Quantity(_number(json["value"]), _number(json.get("u")), json["unit"], k,
                         json.get("why", ""), None if ends is None else (float(ends[0]), float(ends[1])))
     if json.keys() == {"order", "matrix"}:
-        matrix = np.array([[_number(value) for value in row] for row in json["matrix"]], dtype=np.float64)
-        matrix.flags.writeable = False
-        return Covariance(tuple(json["order"]), matrix)
+        return Covariance(tuple(json["order"]), np.array([[_number(value) for value in row] for row in json["matrix"]]))
     return Node({name: frozen(value, k) for name, value in json.items()})
 
 
