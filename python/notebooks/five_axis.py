@@ -2,8 +2,8 @@
 # %% [markdown]
 # # Calibrate a five-axis machine with a ball
 #
-# A trunnion machine with nine errors nobody knows probes two balls on its table. TrueAxis finds its errors. The chain of the
-# machine is written out in NumPy here: it makes the readings, and it judges where the tool is elsewhere.
+# A trunnion machine with nine unknown errors probes two balls on its table. TrueAxis finds its errors. The chain of the
+# machine is written out in NumPy here: it makes the readings, and it shows where the tool is at other places.
 
 # %%
 import tempfile
@@ -48,7 +48,7 @@ def turn(w):
 
 
 def body(axis, side, q, errors):
-    """Where the body of an axis stands in its neighbour nearer to the bed."""
+    """Where the body of an axis is in its neighbour nearer to the bed."""
     own = "XYZ".find(axis) if axis in "XYZ" else "ABC".find(axis)
     angles = np.array([0.0 if axis == letter else errors.get(f"{letter}0{axis}", 0.0) for letter in "ABC"])
     direction = turn(angles)[:3, :3] @ np.eye(3)[own]
@@ -99,7 +99,7 @@ assert np.abs(posed - true_tips).max() < 1e-10
 # %% [markdown]
 # ## The measurement
 #
-# At each A and C the nominal tip stands in the ball; read is where the ball's centre is relative to the tip, along X Y Z.
+# At each A and C the nominal tip is at the ball's centre. A reading is where that centre really is relative to the tip, along X Y Z.
 
 # %%
 rows, positions = [], []
@@ -143,7 +143,8 @@ print(f"χ² per degree of freedom {chi2:.3f}")
 assert abs(chi2 - 1.0) < 4.5 * np.sqrt(2.0 / (len(peer.fun) - 15))
 
 # %% [markdown]
-# Single errors depend on what is held. What counts is the tip in the part relative to the balls, at places that were not measured.
+# Single errors depend on which others are fixed. What counts is the tip in the part relative to the balls, at places that
+# were not measured.
 
 # %%
 calibrated = folder / "calibrated.toml"
@@ -164,8 +165,8 @@ def rms_um(tips):
 
 
 print(f"nominal {rms_um(nominal):.2f} µm, SciPy {rms_um(scipys):.2f} µm, TrueAxis {rms_um(ours):.2f} µm from the true tip")
-# 15 parameters from 360 readings of σ = 1 µm leave about σ √(15/360) = 0.2 µm; TrueAxis, which is not told which errors are
-# there, fits some 60 amounts more and leaves about σ √(75/360) = 0.46 µm; three times that is asked here.
+# 15 parameters from 360 readings of σ = 1 µm leave about σ √(15/360) = 0.2 µm; TrueAxis, which does not know which errors
+# are there, fits some 60 amounts more and leaves about σ √(75/360) = 0.46 µm; three times that is asked here.
 assert rms_um(scipys) < 3 * 0.2 and rms_um(ours) < 3 * 0.46
 
 # %%
@@ -173,9 +174,9 @@ from matplotlib.figure import Figure
 
 figure = Figure(figsize=(5, 3.4), layout="constrained")
 axes = figure.add_subplot()
-for tips, name in ((nominal, "nominal machine"), (ours, "calibrated by TrueAxis"), (scipys, "SciPy, told which errors")):
+for tips, name in ((nominal, "nominal machine"), (ours, "calibrated by TrueAxis"), (scipys, "SciPy, which knows the nine errors")):
     apart = tips - truth
     axes.semilogy(np.sort(1e3 * np.linalg.norm(apart - apart.mean(axis=0), axis=1)), label=name)
-axes.set(title="Distance of the tip from the true one", xlabel="place, sorted", ylabel="µm")
+axes.set(title="Distance of the tip from the true one", xlabel="place, sorted", ylabel="distance, µm")
 axes.legend(frameon=False)
 figure

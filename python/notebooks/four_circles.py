@@ -2,7 +2,7 @@
 # %% [markdown]
 # # Roundness by four circles
 #
-# A profile of 240 points is judged about the least-squares, minimum-zone, minimum circumscribed and maximum inscribed circle
+# A profile of 240 points is evaluated about the least-squares, minimum-zone, minimum circumscribed and maximum inscribed circle
 # (ISO 12181-1). SciPy finds each as a constrained minimum of its own, and Gauss-Newton in NumPy finds the first.
 
 # %%

@@ -2,7 +2,7 @@
 # %% [markdown]
 # # Find the hidden effect
 #
-# The virtual lathe probes a part with three lobes that nobody is told about. A diagnosis finds and names them. NumPy finds
+# The virtual lathe probes a part with three lobes, which only its truth states. A diagnosis finds and names them. NumPy finds
 # the same order and amplitude by a regression that is written out here.
 
 # %%

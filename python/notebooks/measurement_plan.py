@@ -18,8 +18,8 @@ print(plan)
 # %% [markdown]
 # ## The bound in NumPy
 #
-# Near the spindle axis X = R + x(Z) cos C + y(Z) sin C with x and y linear in Z. U = 2 u at the end that is known less, in the worse
-# direction.
+# Near the spindle axis X = R + x(Z) cos C + y(Z) sin C with x and y linear in Z. U = 2 u at the end that is less
+# certain, in the worse direction.
 
 
 # %%

@@ -232,3 +232,20 @@ def test_a_figure_has_titles_units_and_a_closed_curve():
             assert "µm" in said or "mm" in said, said
     profile = figure.axes[0].lines[-1].get_xydata()
     assert np.array_equal(profile[0], profile[-1])
+
+
+def test_a_refused_fit_shows_that_its_axis_is_not_known_and_a_form_without_profile_no_figure():
+    x, c, z = cone()
+    with pytest.raises(ta.NumericalError) as error:
+        ta.fit(x, c, 0.0 * z, surface="cone", **UNITS)
+    assert "not known" in [text.get_text() for axes in error.value.result.plot().axes for text in axes.texts]
+    points = np.random.default_rng(1).normal(size=(50, 3)) * [10.0, 10.0, 1e-3]
+    plane = ta.form(points, element="plane")
+    assert plane._repr_html_().endswith("</pre>")
+    with pytest.raises(ta.TrueAxisError, match="no figure"):
+        plane.plot()
+
+
+def test_a_stream_says_what_it_is():
+    x, c, z = cone(n=200)
+    assert "200 readings of arrays" in repr(ta.stream(x, c, z, **UNITS))

@@ -66,7 +66,11 @@ def _round(axes: Axes, result: Result, residual_mm: Any) -> None:
 
 
 def _axis(axes: Axes, fit: Any) -> None:
-    """The axis over Z with a band of ± U."""
+    """The axis over Z with a band of ± U; a word if it is not known."""
+    if np.isnan([float(fit.axis[name]) for name in ("x", "y", "slope_x", "slope_y")]).any():
+        axes.set(title="Axis", xticks=[], yticks=[])
+        axes.text(0.5, 0.5, "not known", ha="center", va="center", transform=axes.transAxes)
+        return
     axis, low, high = fit.axis, fit.range.min.value, fit.range.max.value
     z = np.linspace(low, high, 50) if high > low else np.array([low - 0.5, low + 0.5])
     h = z - axis.z_ref.value
@@ -95,8 +99,10 @@ def _spectrum(axes: Axes, result: Result) -> None:
 def _figure(*kinds: str) -> tuple[Figure, list[Axes]]:
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(4.2 * len(kinds), 3.6), layout="constrained")
-    return figure, [figure.add_subplot(1, len(kinds), i + 1, projection="polar" if kind == "polar" else None)
+    rows = 2 if len(kinds) == 4 else 1  # so that it is read in the width of a page
+    across = len(kinds) // rows
+    figure = Figure(figsize=(4.2 * across, 3.6 * rows), layout="constrained")
+    return figure, [figure.add_subplot(rows, across, i + 1, projection="polar" if kind == "polar" else None)
                     for i, kind in enumerate(kinds)]
 
 
@@ -129,6 +135,9 @@ def _of_form(result: Result) -> Figure:
     angle, raw, filtered = (getattr(result, f"{name}_{section}") for name in ("angle_rad", "raw_mm", "filtered_mm"))
     at = result.sections[section]
     where = f" at Z {at.z.value:.4g} mm" if "z" in at and not np.isnan(float(at.z)) else ""
+    if result.options.filter.kind == "none":
+        _polar(around, angle, raw, f"Profile{where} without a filter, µm")
+        return figure
     _polar(around, angle, raw, "", color=_GREY, lw=2.4, label="before the filter")
     _polar(around, angle, filtered, f"Profile{where}, µm", label="after the filter")
     around.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.08), ncols=2, fontsize=8)
@@ -171,9 +180,10 @@ def figure_of(result: Result) -> Figure:
     """Returns the figure of a result."""
     kind = str(result.schema).split("/")[0]
     draw = _KINDS.get(kind)
-    if draw is None or result._outcome is None or (kind == "trueaxis.run" and not len(result.c_rad)):
-        files = ", ".join(result.files) or "none"
-        raise TrueAxisError(f"{result.schema} has no figure; its report may, if result.files has one (there: {files})")
+    needed = {"trueaxis.run": "c_rad", "trueaxis.form": "angle_rad_0"}.get(kind)  # a plane's form has no profile
+    if draw is None or result._outcome is None or (needed and not len(getattr(result, needed, ()))):
+        report = '; its report is result.files["report.html"]' if "report.html" in result.files else ""
+        raise TrueAxisError(f"{result.schema} has no figure{report}")
     return draw(result)
 
 

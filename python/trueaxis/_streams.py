@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -13,10 +13,8 @@ from . import _core
 from ._errors import InputError
 from ._values import Floats
 
-if TYPE_CHECKING:
-    import pandas
-
 Stream = _core.Stream
+setattr(Stream, "__repr__", lambda one: f"<trueaxis.Stream: {len(one)} readings of {one.source}>")
 Path = Union[str, "os.PathLike[str]"]
 Readings = Union[Stream, Path, "npt.ArrayLike", Mapping[str, "npt.ArrayLike"]]
 
@@ -208,15 +206,3 @@ def taken(readings: Any, c: Any, z: Any, units: dict[str, Any]) -> Stream:
         return read(readings, **units)
     _expect_known(stream, "arrays", units)
     return stream(readings, c, z, **units)
-
-
-def to_pandas(one: Stream) -> pandas.DataFrame:
-    """Returns the readings as a DataFrame with units in the names of its columns."""
-    import pandas
-
-    across = "x_mm" if one.is_face else "z_mm"
-    columns: dict[str, Floats] = {"z_mm" if one.is_face else "x_mm": one.reading_mm, "c_rad": one.c_rad}
-    for name, values in ((across, one.position_mm), ("t_s", one.time_s)):
-        if len(values):
-            columns[name] = values
-    return pandas.DataFrame(columns)
