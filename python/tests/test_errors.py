@@ -222,6 +222,8 @@ def test_an_argument_that_is_not_there_is_named(readings):
         ta.fit(readings, surface="cylinder", zunit="mm")
     with pytest.raises(ta.InputError, match="radius: .*radius_mm"):
         ta.plan(surface="cylinder", radius=20.0, goal_um=1.0)
+    with pytest.raises(ta.InputError, match="length_mm.*range"):
+        ta.plan(goal_um=1.0, free={"length_mm": 10})
 
 
 def test_a_refusal_says_why():

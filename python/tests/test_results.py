@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trueaxis as ta
+from trueaxis._toml import to_toml
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = os.environ["TRUEAXIS_COMMAND"]
@@ -249,3 +250,17 @@ def test_a_refused_fit_shows_that_its_axis_is_not_known_and_a_form_without_profi
 def test_a_stream_says_what_it_is():
     x, c, z = cone(n=200)
     assert "200 readings of arrays" in repr(ta.stream(x, c, z, **UNITS))
+
+
+def test_file_names_in_a_dictionary_are_relative_to_the_working_directory(tmp_path, monkeypatch):
+    (tmp_path / "seat.csv").write_text(STREAM.read_text())
+    monkeypatch.chdir(tmp_path)
+    job = {"reference": [{"name": "seat", "stream": "seat.csv", "surface": "cone"}]}
+    found = ta.run_job(job)
+    assert "report.html" in found.files and "/tmp" not in str(found).replace(str(tmp_path), "")
+    (tmp_path / "part.toml").write_text(to_toml({
+        "part": {"surface": "cylinder", "radius_mm": 20.0}, "noise": {"sigma_mm": 1e-3},
+        "pass": [{"z_start_mm": 0, "z_end_mm": -20, "feed_mm_per_rev": 1, "speed_rpm": 60, "readings_per_revolution": 20}]}))
+    grid = [{"key": "noise.sigma_mm", "values": [0.001, 0.002]}]
+    swept = ta.sweep({"scenario": "part.toml", "repeats": 4, "axis": grid})
+    assert "sweep.csv" in swept.files

@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path as FilePath
 from typing import Any
 
+import numpy as np
+
 from . import _core
 from ._errors import InputError, ended
 from ._result import Result
@@ -59,8 +61,8 @@ def run_job(job: Document, output: Path | None = None, *, force: bool = False, p
     Parameters
     ----------
     job : path or Mapping
-        The job (TOML). File names in it are relative to it; of a dictionary to the working directory,
-        as absolute paths.
+        The job (TOML). File names in it are relative to it, and those in a dictionary to the working
+        directory.
     output : path, optional
         Folder of the results. Without it nothing is kept but ``result.files``.
     force : bool
@@ -117,6 +119,9 @@ def plan(scenario: Document | None = None, *, goal_um: float, free: Mapping[str,
     unknown = [name for name in part if name not in _PART]
     if unknown or (part and scenario is not None):
         raise InputError(f"{', '.join(unknown or part)}: a plan takes either a scenario or {', '.join(_PART)}")
+    for key, ends in (free or {}).items():
+        if np.shape(ends) != (2,):
+            raise InputError(f"free: {key}: {ends!r} is not a range such as (4, 200)")
     ranges = [f"{key}={low}:{high}" for key, (low, high) in (free or {}).items()]
     given = dict(goal_um=goal_um, free=ranges, coverage_factor=coverage_factor, time_s=time_s, rate_hz=rate_hz,
                  repeats=repeats, seed=seed, threads=threads, **part)

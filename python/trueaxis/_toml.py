@@ -16,6 +16,8 @@ from ._streams import Path
 
 Document = Union[Path, Mapping[str, Any]]
 
+_FILES = ("stream", "scenario", "file", "errors", "data", "program", "nominal", "table", "template")  # keys of file names
+
 
 def _value(value: Any) -> str:
     if isinstance(value, (bool, np.bool_)):
@@ -57,16 +59,30 @@ def to_toml(document: Mapping[str, Any], path: str = "") -> str:
     return "".join(lines)
 
 
+def _placed(value: Any, key: str = "") -> Any:
+    """Returns a document whose file names do not depend on where it is written."""
+    if isinstance(value, Mapping):
+        return {name: _placed(item, name) for name, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_placed(item, key) for item in value]
+    if isinstance(value, os.PathLike) or (isinstance(value, str) and value and key in _FILES):
+        return os.path.abspath(value)
+    return value
+
+
 @contextlib.contextmanager
 def as_file(document: Document, name: str) -> Iterator[str]:
-    """The path of a document; of a dictionary that of a file that is there as long as it is used."""
+    """The path of a document; of a dictionary that of a file that is there as long as it is used.
+
+    File names in a dictionary are relative to the working directory.
+    """
     if not isinstance(document, Mapping):
         yield os.fspath(document)
         return
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, name)
         with open(path, "w", encoding="utf-8") as file:
-            file.write(to_toml(document))
+            file.write(to_toml(_placed(document)))
         try:
             yield path
         except TrueAxisError as error:
