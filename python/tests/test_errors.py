@@ -203,6 +203,10 @@ def test_a_value_that_is_hidden_missing_or_no_number_is_no_reading():
     for broken in (x + 0j, ["a"] * len(x), x > 0):
         with pytest.raises(ta.InputError, match="X_M.*numbers"):
             ta.fit(broken, c, z, surface="cylinder", **UNITS)
+    points = np.ma.masked_greater(np.random.default_rng(1).normal(size=(30, 3)), 1.5)
+    for function in (ta.associate, ta.form):
+        with pytest.raises(ta.InputError, match="points:.*not finite"):
+            function(points, element="plane")
     with pytest.raises(ta.InputError, match="t.*numbers"):
         ta.fit(x, c, z, surface="cylinder", t_s=pandas.date_range("2026-01-01", periods=len(x)), **UNITS)
 

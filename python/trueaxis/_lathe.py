@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._errors import InputError
 from ._result import Result, result_of
-from ._streams import Path, Readings, Stream, taken
+from ._streams import Path, Readings, Stream, numbers_of, taken
 from ._toml import Document, as_file, as_text
 from ._work import Progress, Shown, number, one_of
 
@@ -159,7 +159,7 @@ def form(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | 
         if c is not None or z is not None or units or datum is not None:
             raise InputError("points are rows x, y, z in mm: leave c, z, units and datum out")
         with Shown("form", progress) as shown:
-            return result_of(_core.form_of_points(np.asarray(readings, dtype=np.float64), element, options, shown))
+            return result_of(_core.form_of_points(numbers_of("points", readings), element, options, shown))
     stream = taken(readings, c, z, units)
     about = None if datum is None else taken(datum, None, None, {})
     with Shown("form", progress) as shown:
@@ -203,7 +203,7 @@ def associate(points: npt.ArrayLike | Path, *, element: str, criterion: str = "g
                                                   shown))
         if unit not in (None, "mm"):
             raise InputError("unit: an array of points is in mm")
-        rows = np.asarray(points, dtype=np.float64)
+        rows = numbers_of("points", points)
         return result_of(_core.associate(rows, element, criterion, side, threads, shown))
 
 

@@ -22,8 +22,8 @@ _SAY_X = ('say what x is: x_unit="mm radius" or "mm diameter" (um, m and in too)
           'c_unit="deg", "rad" or "rev", z_unit="mm"')
 
 
-def _numbers(name: str, column: Any) -> Floats:
-    """Returns a column as numbers; a value that is hidden or missing is NaN, which no fit takes for a reading."""
+def numbers_of(name: str, column: Any) -> Floats:
+    """Returns readings or points as numbers; a value that is hidden or missing is NaN, which no fit takes for a reading."""
     if isinstance(column, np.ma.MaskedArray):
         masked: Any = column
         column = masked.astype(np.float64).filled(np.nan)
@@ -35,7 +35,7 @@ def _numbers(name: str, column: Any) -> Floats:
             given = given.to_numpy(dtype=np.float64, na_value=np.nan)
         return np.ascontiguousarray(given, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise InputError(f"{name}: not a column of numbers: {error}") from None
+        raise InputError(f"{name}: not an array of numbers: {error}") from None
 
 
 def _expect_same_rows(columns: Mapping[str, Any]) -> None:
@@ -64,7 +64,7 @@ def _named_columns(x: npt.ArrayLike, c: npt.ArrayLike | None, z: npt.ArrayLike |
     if x_unit is None or left_out:
         raise InputError(f"{', '.join(left_out)} missing; {_SAY_X}")
     if several:
-        sensors = np.asarray(x, dtype=np.float64)
+        sensors = numbers_of("x", x)
         if sensors.ndim != 2:
             raise InputError("x: an array of shape (n, sensors) goes with sensor_angles_deg")
         columns: dict[str, npt.ArrayLike] = {
@@ -144,7 +144,7 @@ def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | No
     else:
         columns = _named_columns(x, c, z, t_s, x_unit, c_unit, z_unit, several)
         is_face = False
-    numbers = [_numbers(name, column) for name, column in columns.items()]
+    numbers = [numbers_of(name, column) for name, column in columns.items()]
     sizes = [one.shape for one in numbers]
     if any(one.ndim != 1 for one in numbers) or len(set(sizes)) != 1:
         given = ", ".join(f"{name} {size}" for name, size in zip(columns, sizes))
