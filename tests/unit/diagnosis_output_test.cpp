@@ -115,7 +115,7 @@ TEST(DiagnosisJson, EveryCauseHasItsConsequence) {
   EXPECT_EQ(told.at("own.form"), "turn it again");
   const auto lines = cause_lines(d, d.findings.front(), 9);
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_EQ(lines.back(), "a form of its own (0.1): turn it again [own.form]");
+  EXPECT_EQ(lines.back(), "a form of its own (10 %): turn it again [own.form]");
   EXPECT_NE(lines.front().find(find_effect("part.roundness")->consequence), std::string::npos);
 }
 
