@@ -118,7 +118,7 @@ function legendAbove(series, width) {
   let height = 20, used = 0, broken = false;
   for (const {name} of series) {
     const letters = textWidth(name), lines = Math.ceil(1.1 * letters / most);
-    const needs = 36 + Math.min(letters, most);
+    const needs = 40 + Math.min(letters, most);  // sign, gaps and letters
     broken ||= lines > 1;
     if (used > 0 && (used + needs > width || broken)) { height += 20; used = 0; }
     height += 15 * (lines - 1);

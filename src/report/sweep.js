@@ -3,6 +3,7 @@
 
 const data = JSON.parse(document.getElementById('data').textContent);
 const mostRows = 400;
+document.body.classList.add('landscape');  // its tables have many columns
 
 /** Small amounts of an edge unit in that of shown(), with the decimals that three digits of `size` have. */
 function amounts(values, unit, size) {

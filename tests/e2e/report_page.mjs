@@ -155,7 +155,8 @@ async function lookDark(browser) {
   await page.evaluate(() => document.querySelectorAll('details').forEach((d) => { d.open = false; }));
   // As a browser does: the page is told first, and then has the width and the rules of paper. It waits for no frame.
   const charts = await page.evaluate(`window.dispatchEvent(new Event('beforeprint')); (${inspectCharts})()`);
-  await page.setViewportSize({width: 703, height: 1000});  // A4 less its margins
+  const landscape = await page.evaluate(() => document.body.classList.contains('landscape'));
+  await page.setViewportSize(landscape ? {width: 1032, height: 703} : {width: 703, height: 1000});  // A4 less its margins
   await page.emulateMedia({media: 'print', colorScheme: 'dark'});
   const folded = await page.evaluate(() => document.querySelectorAll('details:not([open])').length);
   if (folded) problems.push(`print: ${folded} parts stay folded`);
