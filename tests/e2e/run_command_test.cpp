@@ -207,9 +207,8 @@ TEST_F(CorrectCommand, OfAConeItKnowsTheStock) {
       "[target]\nsurface = \"cylinder\"\nradius_mm = 24\nz_start_mm = 40\nz_end_mm = 10\n"
       "coaxiality_tolerance_um = 20\nstock_um = ";
   const std::string cut = "\n[cut]\nspeed_rpm = 600\nsense = \"+c\"\nfeed_mm_per_rev = 0.1\n";
-  ASSERT_EQ(command("diagnose " + stream + " --surface cone --loss tukey --json cone.json")
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      command("diagnose " + stream + " --surface cone --loss tukey --json cone.json").exit_code, 0);
   file("little.toml", target + "1" + cut);
   const CommandStreams little = command("table cone.json --target little.toml -o cone.csv");
   EXPECT_EQ(little.exit_code, 1) << little.err;
