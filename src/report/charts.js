@@ -120,7 +120,7 @@ function legendAbove(series, width) {
     const letters = textWidth(name), lines = Math.ceil(1.1 * letters / most);
     const needs = 40 + Math.min(letters, most);  // sign, gaps and letters
     broken ||= lines > 1;
-    if (used > 0 && (used + needs > width || broken)) { height += 20; used = 0; }
+    if (used > 0 && (used + needs > width - 10 || broken)) { height += 23; used = 0; }
     height += 15 * (lines - 1);
     used += needs;
   }

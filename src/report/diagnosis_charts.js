@@ -84,19 +84,9 @@ function spectrumChart(diagnosis, extended) {
   const curve = (name, values, colour, width) => ({name, type: 'line', symbol: 'none', emphasis: {disabled: true},
     itemStyle: {color: colour}, lineStyle: {color: colour, width}, data: order.map((o, i) => [o, values[i]])});
   const curves = [curve(extended ? 'before' : 'measured − simulated', before, colours.measured, 1.6), ...(extended ? [curve('after', after, colours.model, 1.6)] : [])];
-  // A name that would lie on an earlier one is moved above it.
-  const placed = [];
-  const above = ({dataIndex, labelRect: {x, y, width, height}}) => {
-    placed.length = dataIndex;
-    const on = (top) => placed.find((o) => x < o.x + o.width + 4 && o.x < x + width + 4 && top < o.y + o.height && o.y < top + height);
-    let top = y;
-    for (let other = on(top); other; other = on(top)) top = other.y - height - 1;
-    placed[dataIndex] = {x, y: top, width, height};
-    return {dy: top - y};
-  };
   const found = (width) => ({name: 'found', type: 'scatter', symbol: 'triangle', symbolSize: 9, symbolOffset: [0, -8], z: 5, emphasis: {disabled: true},
-    itemStyle: {color: colours.series[2]}, labelLayout: above,
-    label: {show: true, distance: 8, color: colours.ink, fontSize: 11}, data: labelled(width)});
+    itemStyle: {color: colours.series[2]}, labelLayout: {moveOverlap: 'shiftY'},
+    label: {show: true, distance: 8, color: colours.ink, fontSize: 11, lineHeight: 14}, data: labelled(width)});
   const seriesFor = (width) => marks.size ? [...curves, found(width)] : curves;
   const build = (width) => ({
     grid: grid({top: 64}),

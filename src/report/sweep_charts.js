@@ -76,7 +76,7 @@ function acrossAxis(view, width) {
   return axis(view.log ? `${view.name} (log)` : view.name, {
     nameGap: words ? 44 : 30, nameTruncate: {maxWidth: width - 60, ellipsis: '…'}, min: Math.min(...places) - margin, max: Math.max(...places) + margin,
     axisTick: {show: true, customValues: places}, axisLabel: {color: colours.ink, hideOverlap: true, customValues: places, formatter: label,
-      ...(words ? {width: (width - 60) / view.labels.length, overflow: 'break', lineHeight: 14} : {})},
+      ...(words ? {width: (width - 60) / view.labels.length, overflow: 'break', lineHeight: 14, height: 28, lineOverflow: 'truncate'} : {})},
     splitLine: {show: false},
   });
 }

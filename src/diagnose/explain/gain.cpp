@@ -57,17 +57,20 @@ std::vector<SpectrumBin> spectrum_of(const LinearisationPoint& point, const Reso
   constexpr double most_bins = 400.0;
   const double highest = std::min(15.0, 0.5 * resolution.per_turn);
   if (resolution.turns < 0.5 || highest < 1.0) return {};
-  const double step = std::max(highest / most_bins, std::min(1.0, 0.5 / resolution.turns));
-  const auto bins = static_cast<std::size_t>(highest / step) + 1;
-  const FourierSums plan(point.c, 0.0, step, bins);
+  // Whole orders are bins: next to one a line of a long stream looks smaller than it is.
+  const double per_order = std::max(
+      1.0, std::floor(1.0 / std::max(highest / most_bins, std::min(1.0, 0.5 / resolution.turns)) +
+                      1e-9));
+  const auto bins = static_cast<std::size_t>(highest * per_order) + 1;
+  const FourierSums plan(point.c, 0.0, 1.0 / per_order, bins);
   const std::span<const double> both[] = {before_mm, after_mm};
   const std::vector<FourierSums::Sums> sums = plan.of(both);
   const auto &before = sums[0], &after = sums[1];
   std::vector<SpectrumBin> out;
   for (std::size_t k = 0; k < bins; ++k) {
     const double factor = (k == 0 ? 1.0 : 2.0) / static_cast<double>(point.size());
-    out.push_back(
-        {step * static_cast<double>(k), factor * std::abs(before[k]), factor * std::abs(after[k])});
+    out.push_back({static_cast<double>(k) / per_order, factor * std::abs(before[k]),
+                   factor * std::abs(after[k])});
   }
   return out;
 }

@@ -49,6 +49,23 @@ std::string size_text(const Finding& finding, double k) {
   return plus_minus(e, k, small ? 1.0 / mm_per_um : 1.0, small ? "µm" : e.unit);
 }
 
+/// How far the middle of a part moved across the spindle axis, the length of (dx, dy); of a seat
+/// that moves along it the size as of any finding.
+std::string moved_text(const Finding& slip, double k) {
+  const auto of = [&](const char* name) {
+    return std::ranges::find(slip.parameters, name, &FitParameter::name);
+  };
+  const auto dx = of("dx"), dy = of("dy"), none = slip.parameters.end();
+  if (dx == none || dy == none) return size_text(slip, k);
+  Estimate moved = dx->estimate;
+  moved.value = std::hypot(dx->estimate.value, dy->estimate.value);
+  if (!(moved.value > 0.0)) return size_text(slip, k);
+  moved.u = std::hypot(dx->estimate.value * dx->estimate.u, dy->estimate.value * dy->estimate.u) /
+            moved.value;
+  if (!(moved.expanded(k) < moved.value)) return um(slip.rms_mm) + " RMS";
+  return plus_minus(moved, k, 1.0 / mm_per_um, "µm");
+}
+
 /// Whether what may grow along Z does, by more than its U.
 bool grows(const Finding& finding, double k) {
   return std::ranges::any_of(finding.parameters, [&](const FitParameter& p) {
@@ -122,7 +139,9 @@ std::string seen_text(const Finding& finding, double k) {
             return fmt::format("an oscillation of {:.4g} Hz, {}", shape.frequency_hz, size);
           },
           [&](const GrowthInTime&) { return "a drift with time, " + size; },
-          [&](const PartStep&) { return "the part moved " + date_text(finding) + ", " + size; },
+          [&](const PartStep&) {
+            return "the part moved " + date_text(finding) + ", " + moved_text(finding, k);
+          },
           [&](const PolynomialInZ&) { return "a curve along Z, the same all around, " + size; },
           [&](const auto&) { return title + ", " + size; }},
       finding.term.effect->term);
