@@ -73,10 +73,18 @@ function acrossAxis(view, width) {
   const label = (value) => view.labels[places.reduce((best, p, i) => Math.abs(p - value) < Math.abs(places[best] - value) ? i : best, 0)];
   const words = !view.values.every(isNumber);
   const margin = words ? 0.5 : 0.07 * span;
+  // Words take two lines at most.
+  const letters = words ? Math.max(3, Math.floor((width - 60) / view.labels.length / 7)) : Infinity;
+  const cut = (text) => text.length > letters ? `${text.slice(0, letters - 1)}…` : text;
+  const inLines = (text) => {
+    if (text.length <= letters) return text;
+    const space = text.lastIndexOf(' ', letters), end = space > 0 ? space : letters;
+    return `${text.slice(0, end)}\n${cut(text.slice(end).trimStart())}`;
+  };
   return axis(view.log ? `${view.name} (log)` : view.name, {
     nameGap: words ? 44 : 30, nameTruncate: {maxWidth: width - 60, ellipsis: '…'}, min: Math.min(...places) - margin, max: Math.max(...places) + margin,
-    axisTick: {show: true, customValues: places}, axisLabel: {color: colours.ink, hideOverlap: true, customValues: places, formatter: label,
-      ...(words ? {width: (width - 60) / view.labels.length, overflow: 'break', lineHeight: 14, height: 28, lineOverflow: 'truncate'} : {})},
+    axisTick: {show: true, customValues: places}, axisLabel: {color: colours.ink, hideOverlap: true, customValues: places, formatter: (value) => inLines(label(value)),
+      ...(words ? {lineHeight: 14} : {})},
     splitLine: {show: false},
   });
 }

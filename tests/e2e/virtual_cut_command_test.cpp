@@ -118,9 +118,6 @@ TEST_F(VirtualCutCommand, RefusesWhatItCannotCut) {
   expect_input_error(
       "machine simulate " + five_axis_data + "ball.toml --program other.nc -o path.csv",
       "--program needs");
-  EXPECT_EQ(command("machine simulate " + five_axis_data + "ball.toml --json f.json -o path.csv")
-                .exit_code,
-            2);
   EXPECT_EQ(command("machine simulate " + five_axis_data + "ball.toml").exit_code, 2);
   EXPECT_EQ(command(cut_scenario + "--json f -o f").exit_code, 2);
 }

@@ -50,7 +50,7 @@ std::string size_text(const Finding& finding, double k) {
 }
 
 /// How far the middle of a part moved across the spindle axis, the length of (dx, dy); of a seat
-/// that moves along it the size as of any finding.
+/// that moves along it the size as of any cause.
 std::string moved_text(const Finding& slip, double k) {
   const auto of = [&](const char* name) {
     return std::ranges::find(slip.parameters, name, &FitParameter::name);
