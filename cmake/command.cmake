@@ -71,7 +71,8 @@ target_link_libraries(trueaxis PRIVATE trueaxis_cli)
 add_custom_command(TARGET trueaxis POST_BUILD
   COMMAND trueaxis completion bash > "${PROJECT_BINARY_DIR}/trueaxis.bash"
   COMMAND trueaxis completion zsh > "${PROJECT_BINARY_DIR}/_trueaxis"
-  COMMAND trueaxis man > "${PROJECT_BINARY_DIR}/trueaxis.1" VERBATIM)
+  COMMAND trueaxis man > "${PROJECT_BINARY_DIR}/trueaxis.1"
+  COMMAND gzip -9nc "${PROJECT_BINARY_DIR}/trueaxis.1" > "${PROJECT_BINARY_DIR}/trueaxis.1.gz" VERBATIM)
 
 # The same sweeps on several machines, where Open MPI is installed.
 find_package(MPI QUIET COMPONENTS CXX)
