@@ -120,6 +120,16 @@ struct TargetSurface {
   double path_end_mm() const { return end_mm() + std::copysign(overrun_mm, end_mm() - start_mm()); }
 };
 
+/// What the control makes of a table between two of its rows.
+enum class Interpolation {
+  not_stated,
+  linear,  ///< straight lines
+  none,    ///< a row is held until the next
+};
+
+/// "not_stated", "linear", "none"
+const char* to_string(Interpolation interpolation);
+
 /// Tool and cutting motion.
 struct ToolSetup {
   double nose_radius_mm = 0.0;
@@ -132,6 +142,7 @@ struct ToolSetup {
   double feed_mm_per_rev = 0.1;   ///< > 0; the direction follows from the target's start and end
   double c_start_rad = 0.0;       ///< spindle angle at the first row
   int rows_per_revolution = 360;  ///< linear interpolation then errs by 4e-5 of a 1-UPR amplitude
+  Interpolation interpolation = Interpolation::not_stated;  ///< of the rows, by the control
 };
 
 /// The rows of a correction table, in the order in which they are run. For a face the actuator
@@ -204,6 +215,7 @@ struct Correction {
   ActuatorMargin margin;
   /// Of a drive that joins the rows' wanted values by straight lines and follows without error.
   Deviation between_rows;
+  Deviation held_rows;  ///< of one that holds each row until the next
 };
 
 /// The correction profile, its precompensation and its margin. An actuator that cannot follow is
@@ -215,8 +227,9 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
                            const ToolSetup& tool, const Actuator& actuator,
                            std::vector<RepeatingMotion> motions = {});
 
-/// The fewest rows per revolution with which `between_rows` of this cut would be at most
-/// `largest_mm` anywhere and `once_mm` once per revolution; 0: not even with 100000.
-int rows_that_would_do(const Correction& correction, const Deviation& limit);
+/// The fewest rows per revolution that keep the deviation between them at most `limit`; 0: not even
+/// 100000 do.
+/// @param by linear or none
+int rows_that_would_do(const Correction& correction, Interpolation by, const Deviation& limit);
 
 }  // namespace trueaxis

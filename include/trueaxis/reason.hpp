@@ -70,6 +70,8 @@ enum class ReasonCode {
   set_points_too_few,
   following_error_exceeded,
   rows_coarse,
+  rows_coarse_held,
+  interpolation_not_stated,
   no_uncertainty,
   // Motions asked into the correction.
   motion_refused,
@@ -148,6 +150,7 @@ enum class ReasonCode {
   set_step,
   set_c_step,
   set_rows,
+  set_interpolation,
   other_format,
   rows_that_would_do,
   rows_do_not_help,

@@ -143,7 +143,9 @@ int execute(const CorrectArguments& options) {
   outputs.commit();
   const bool printed = options.results.printed() || (!options.preview && options.table == "-");
   if (!printed && result.correction)
-    std::cout << verdict_line(result) << '\n' << correction_preview(*result.correction);
+    std::cout << verdict_line(result) << '\n'
+              << correction_preview(*result.correction)
+              << coarse_rows_lines(result, "rows        ");
   if (options.ideal) (printed ? std::cerr : std::cout) << rests_on_ideal;
   if (!cut) throw Refusal(words_of(verdict.reasons, "; ", result));
   return done;

@@ -33,6 +33,11 @@ CorrectionRows wanted_rows(const Profile& profile) {
 
 }  // namespace
 
+const char* to_string(Interpolation interpolation) {
+  constexpr const char* names[] = {"not_stated", "linear", "none"};
+  return names[static_cast<std::size_t>(interpolation)];
+}
+
 Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
                            const ToolSetup& tool, const Actuator& actuator,
                            std::vector<RepeatingMotion> motions) {
@@ -50,7 +55,8 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
   correction.rows = wanted_rows(profile);
   correction.rows.command_mm = correction.rows.wanted_mm;
   correction.harmonics = table_harmonics(profile, actuator);
-  correction.between_rows = between_rows(profile, tool.rows_per_revolution);
+  correction.between_rows = between_rows(profile, tool.rows_per_revolution, Interpolation::linear);
+  correction.held_rows = between_rows(profile, tool.rows_per_revolution, Interpolation::none);
 
   const Spectrum spectrum(profile);
   const Motion motion = motion_of(profile, tool.speed_rpm);

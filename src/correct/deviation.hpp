@@ -20,7 +20,8 @@ std::vector<std::size_t> looked_at(std::size_t revolutions, std::size_t points_o
 /// nodes is looked at, and 64 or more in a revolution.
 std::size_t parts_between(std::size_t per_revolution);
 
-/// Of straight lines between `rows` wanted values a revolution (Eq. 114a).
-Deviation between_rows(const Profile& profile, int rows);
+/// Of straight lines between `rows` wanted values a revolution (Eq. 114a), or of values that are
+/// held until the next (Eq. 114b).
+Deviation between_rows(const Profile& profile, int rows, Interpolation by);
 
 }  // namespace trueaxis

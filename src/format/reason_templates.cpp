@@ -126,6 +126,13 @@ std::string_view template_of(ReasonCode code) {
       {rows_coarse,
        "{rows::.0f} rows per revolution: straight lines between them are off by up to {off:um:.3g} "
        "µm; {remedies}"},
+      {rows_coarse_held,
+       "{rows::.0f} rows per revolution: a control that holds each row until the next is off by up "
+       "to {off:um:.3g} µm; {remedies}"},
+      {interpolation_not_stated,
+       "{parts}, tolerance {tolerance:um:.9g} µm; {held:um:two} µm if the control does not join "
+       "the "
+       "rows of table.csv by straight lines but holds each until the next: {remedies:, or }"},
       {no_uncertainty,
        "the readings do not give an uncertainty: probe more readings, or state the sensor's noise"},
       {motion_refused, "{effect} of {reference} must not enter the correction: {parts}"},
@@ -261,6 +268,8 @@ std::string_view template_of(ReasonCode code) {
       {set_step, "{key} = {step::.6g}"},
       {set_c_step, "c_step_deg = {step:deg:.6g}"},
       {set_rows, "rows_per_revolution = {rows::.0f} in [cut]"},
+      {set_interpolation,
+       "state interpolation = \"linear\" or \"none\" in [cut], as the control does"},
       {other_format,
        "{output} does not keep the tolerance with any step of the format: use another format"},
       {rows_that_would_do,

@@ -20,7 +20,7 @@ std::span<const JobCheck* const> checks() {
       &motions_allowed, &findings_reproduced,
       // Not proven.
       &slipped_between_references, &datum_members_apart, &axis_known, &improbable_and_far,
-      &sensor_or_eccentricity,
+      &sensor_or_eccentricity, &rows_read,
       // With reservations.
       &axes_open, &undiagnosed_correlated, &noise_over_stated, &bow_or_vibration,
       &references_off_datum, &cut_far, &gauge_shows_no_radius, &axis_of_cut};

@@ -23,6 +23,9 @@ extern const JobCheck fits_converged;
 /// The actuator follows the planned correction.
 extern const JobCheck actuator_follows;
 
+/// A control of which nobody says how it reads the rows keeps the tolerance either way.
+extern const JobCheck rows_read;
+
 /// The numbers of the cut have an uncertainty.
 extern const JobCheck uncertainty_known;
 

@@ -47,11 +47,18 @@ Reasons finer_table(const Correction& correction, const ControlTable& table, dou
   return {};
 }
 
+/// The control is stated to hold each row until the next.
+bool holds_rows(const Correction& correction) {
+  return correction.tool.interpolation == Interpolation::none;
+}
+
 /// More rows per revolution; none: 100000 are not enough.
 Reasons more_rows(const PlannedJob& result, const ControlTable* table, double allowed_mm) {
   constexpr double most_rows = 1e5;
   const Correction& correction = *result.correction;
-  double rows = rows_that_would_do(correction, {allowed_mm, 0.5 * allowed_mm});
+  const bool held = table == nullptr && holds_rows(correction);
+  double rows = rows_that_would_do(correction, held ? Interpolation::none : Interpolation::linear,
+                                   {allowed_mm, 0.5 * allowed_mm});
   if (table != nullptr && table->format == ControlFormat::halstreamer) {
     // A line that is held is off by a share of a row: in inverse proportion to their number.
     const auto at = static_cast<std::size_t>(table - result.job.outputs.data());
@@ -63,7 +70,38 @@ Reasons more_rows(const PlannedJob& result, const ControlTable* table, double al
   return {{ReasonCode::set_rows, {}, {{"rows", rows}}}};
 }
 
+/// More than allowed off between the rows, and with how many rows less.
+std::optional<Reason> coarse_rows(const PlannedJob& result, Interpolation by) {
+  const Correction& correction = *result.correction;
+  const bool held = by == Interpolation::none;
+  const double allowed_mm = allowed_between_rows_mm(result);
+  const double off_mm = (held ? correction.held_rows : correction.between_rows).largest_mm;
+  if (!(off_mm > allowed_mm)) return {};
+  const int rows = rows_that_would_do(correction, by, {allowed_mm, allowed_mm});
+  const Reason enough{ReasonCode::rows_that_would_do,
+                      {},
+                      {{"rows", static_cast<double>(rows)}, {"allowed", allowed_mm, "mm"}}};
+  return Reason{
+      held ? ReasonCode::rows_coarse_held : ReasonCode::rows_coarse,
+      {},
+      {{"rows", static_cast<double>(correction.tool.rows_per_revolution)}, {"off", off_mm, "mm"}},
+      {},
+      {},
+      {rows > 0 ? enough : Reason{ReasonCode::rows_do_not_help}}};
+}
+
 }  // namespace
+
+CutFile table_file(const Correction& correction, Interpolation by) {
+  const bool held = by == Interpolation::none;
+  CutFile table{"table.csv", 2.0 * correction.margin.following_once_mm,
+                diameter_mm(held ? correction.held_rows : correction.between_rows)};
+  // A control that sends X_command has the actuator's error, one that follows X_fts that between
+  // the rows; one that holds what it sends has both.
+  table.adds_mm =
+      held ? table.actuator_mm + table.file_mm : std::max(table.actuator_mm, table.file_mm);
+  return table;
+}
 
 std::vector<CutFile> cut_files(const PlannedJob& result) {
   const Correction& correction = *result.correction;
@@ -76,18 +114,15 @@ std::vector<CutFile> cut_files(const PlannedJob& result) {
     file.adds_mm = file.actuator_mm + file.file_mm;
     files.push_back(std::move(file));
   }
-  // A control that sends X_command has the actuator's error, one that follows X_fts that between
-  // the rows.
-  CutFile table{"table.csv", actuator_mm, diameter_mm(correction.between_rows)};
-  table.adds_mm = std::max(table.actuator_mm, table.file_mm);
-  files.push_back(std::move(table));
+  files.push_back(table_file(correction, correction.tool.interpolation));
   return files;
 }
 
 Reason what_would_do(const PlannedJob& result, const CutFile& file, double allowed_mm) {
   const auto output = std::ranges::find(result.job.outputs, file.name, &ControlTable::file);
   const ControlTable* table = output == result.job.outputs.end() ? nullptr : &*output;
-  const double left_mm = allowed_mm - (table == nullptr ? 0.0 : file.actuator_mm);
+  const bool sent = table != nullptr || holds_rows(*result.correction);
+  const double left_mm = allowed_mm - (sent ? file.actuator_mm : 0.0);
   const bool rows = table == nullptr || table->format == ControlFormat::halstreamer ||
                     table->format == ControlFormat::servo_nc;
   const Reasons keys =
@@ -104,22 +139,13 @@ double allowed_between_rows_mm(const PlannedJob& result) {
          result.job.coaxiality_tolerance_mm.value_or(result.correction->margin.following_limit_mm);
 }
 
-std::optional<Reason> coarse_rows(const PlannedJob& result) {
-  const Correction& correction = *result.correction;
-  const double allowed_mm = allowed_between_rows_mm(result);
-  const double off_mm = correction.between_rows.largest_mm;
-  if (!(off_mm > allowed_mm)) return {};
-  const int rows = rows_that_would_do(correction, {allowed_mm, allowed_mm});
-  const Reason enough{ReasonCode::rows_that_would_do,
-                      {},
-                      {{"rows", static_cast<double>(rows)}, {"allowed", allowed_mm, "mm"}}};
-  return Reason{
-      ReasonCode::rows_coarse,
-      {},
-      {{"rows", static_cast<double>(correction.tool.rows_per_revolution)}, {"off", off_mm, "mm"}},
-      {},
-      {},
-      {rows > 0 ? enough : Reason{ReasonCode::rows_do_not_help}}};
+Reasons coarse_rows(const PlannedJob& result) {
+  const Interpolation stated = result.correction->tool.interpolation;
+  Reasons coarse;
+  for (const Interpolation by : {Interpolation::linear, Interpolation::none})
+    if (stated == by || stated == Interpolation::not_stated)
+      if (auto reason = coarse_rows(result, by)) coarse.push_back(std::move(*reason));
+  return coarse;
 }
 
 }  // namespace trueaxis

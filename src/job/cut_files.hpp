@@ -21,7 +21,11 @@ Reason what_would_do(const PlannedJob& job, const CutFile& file, double allowed_
 /// one, a tenth of the following error that the job accepts. mm
 double allowed_between_rows_mm(const PlannedJob& job);
 
-/// How far off straight lines between rows are and with how many rows less than allowed.
-std::optional<Reason> coarse_rows(const PlannedJob& job);
+/// What table.csv adds with a control that makes this of its rows.
+CutFile table_file(const Correction& correction, Interpolation by);
+
+/// What is more than allowed off between the rows, of what the control may do there, and how many
+/// rows would do.
+Reasons coarse_rows(const PlannedJob& job);
 
 }  // namespace trueaxis

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "fit/plausible.hpp"
 #include "job/checks.hpp"
+#include "job/cut_files.hpp"
 #include "job/doubts.hpp"
 
 namespace trueaxis {
@@ -37,6 +39,29 @@ Reasons find_actuator(const CheckInput& in) {
   const ActuatorMargin& margin = in.job.correction->margin;
   return {{ReasonCode::actuator_cannot_follow, {}, {}, {}, margin.breaks, margin.remedies},
           expected_cut(in.job, in.cut)};
+}
+
+Reasons find_rows_read(const CheckInput& in) {
+  const Correction& correction = *in.job.correction;
+  if (correction.tool.interpolation != Interpolation::not_stated) return {};
+  const double tolerance_mm = *in.job.job.coaxiality_tolerance_mm;
+  const double axis_mm =
+      in.cut.upper_mm - std::ranges::max(in.cut.files, {}, &CutFile::adds_mm).adds_mm;
+  const double held_mm = axis_mm + table_file(correction, Interpolation::none).adds_mm;
+  if (held_mm <= tolerance_mm) return {};
+  Reason reason{ReasonCode::interpolation_not_stated,
+                {},
+                {{"tolerance", tolerance_mm, "mm"}, {"held", held_mm, "mm"}},
+                {},
+                {expected_cut(in.job, in.cut)},
+                {{ReasonCode::set_interpolation}}};
+  const double once_mm = 0.5 * (tolerance_mm - axis_mm) - correction.margin.following_once_mm;
+  const int rows =
+      once_mm > 0.0 ? rows_that_would_do(correction, Interpolation::none, {2.0 * once_mm, once_mm})
+                    : 0;
+  if (rows > 0)
+    reason.remedies.push_back({ReasonCode::set_rows, {}, {{"rows", static_cast<double>(rows)}}});
+  return {reason};
 }
 
 Reasons find_no_uncertainty(const CheckInput& in) {
@@ -81,6 +106,8 @@ constinit const JobCheck fits_converged{
     "fits_converged", CheckedAt::references, Weight::forbids, {}, find_failed_fit};
 constinit const JobCheck actuator_follows{
     "actuator_follows", CheckedAt::cut, Weight::forbids, {}, find_actuator};
+constinit const JobCheck rows_read{
+    "rows_read", CheckedAt::tolerance, Weight::leaves_open, {}, find_rows_read};
 constinit const JobCheck uncertainty_known{
     "uncertainty_known", CheckedAt::cut, Weight::forbids, {}, find_no_uncertainty};
 constexpr Threshold of_motions[] = {

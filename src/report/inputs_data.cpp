@@ -106,6 +106,8 @@ Json cut_block(const TargetSurface& target, const ToolSetup& tool) {
   options.add("tool height", tool.height_mm, "mm");
   options.add("angle from probe to tool", tool.angle_from_probe_rad / rad_per_deg, "°");
   options.add("rows per revolution", tool.rows_per_revolution, "");
+  constexpr const char* between[] = {"not stated", "straight lines", "rows are held"};
+  options.add("between two rows", between[static_cast<std::size_t>(tool.interpolation)]);
   return options.block();
 }
 

@@ -66,6 +66,36 @@ class ControlFiles : public CommandTest {
   json verdict() { return result("out/result.json").at("verdict"); }
   std::string text(const std::string& name) { return read_text(folder_ / name); }
 
+  /// A part 0.2 mm off the spindle.
+  void probe_far_off() {
+    file("far.toml",
+         "seed = 3\n[part]\nkind = \"cylinder\"\nradius_mm = 30\nx0_mm = 0.2\n[noise]\n"
+         "sigma_um = 0.5\n[[pass]]\nz_start_mm = 0\nz_end_mm = 40\nfeed_mm_per_rev = 1\n"
+         "readings_per_revolution = 36.7\n");
+    ASSERT_EQ(command("simulate far.toml -o seat.csv --force").exit_code, 0);
+  }
+
+  /// Coaxiality of what the lathe cuts with this table, with the axis (x, y) + tilt · Z, mm.
+  double coaxiality_of_cut(const std::string& table, double x, double y, double tilt_x_,
+                           double tilt_y_) {
+    file("read.csv", table);
+    file("cut.toml",
+         "seed = 1\n[part]\nkind = \"cylinder\"\nradius_mm = 28\n[cut]\nuse = \"wanted\"\n"
+         "[cut.target]\nkind = \"cylinder\"\nradius_mm = 28\nz_start_mm = 60\nz_end_mm = 30\n"
+         "[cut.tool]\nspeed_rpm = 60\nfeed_mm_per_rev = 0.05\nnose_radius_mm = 0.8\nsense = 1\n"
+         "[cut.actuator]\nperfect = true\n[[pass]]\nz_start_mm = 34.9\nz_end_mm = 30.1\n"
+         "feed_mm_per_rev = 0.1618\nreadings_per_revolution = 101.3\n");
+    EXPECT_EQ(command("simulate cut.toml --table read.csv -o cut.csv --force").exit_code, 0);
+    EXPECT_EQ(command("fit cut.csv --surface cylinder --json cut.json --force").exit_code, 0);
+    const json p = result("cut.json").at("parameters");
+    const auto of = [&](const char* name) { return p.at(name).at("value").get<double>(); };
+    double coaxiality = 0.0;
+    for (const double z : {30.1, 34.9})
+      coaxiality = std::max(coaxiality, 2.0 * std::hypot(of("x0") + of("l") * z - x - tilt_x_ * z,
+                                                         of("y0") + of("m") * z - y - tilt_y_ * z));
+    return coaxiality;
+  }
+
   /// What a file adds by the verdict, mm.
   double said_to_add(const std::string& name) {
     const json files = verdict().at("files");
@@ -92,6 +122,9 @@ class ControlFiles : public CommandTest {
     return worst;
   }
 };
+
+// The rows of a table whose following error is not the matter.
+const std::string follows = "[actuator]\nfollowing_limit_um = 5\n";
 
 const char* const servo =
     "[[output]]\nformat = \"servo_nc\"\nx = \"diameter\"\n"
@@ -168,21 +201,7 @@ TEST_F(ControlFiles, ThePartThatIsCutIsWithinTheVerdict) {
     std::snprintf(row, sizeof row, "%d,%.6f,%d.000000,%.7f,%.7f\n", i / 360, z, i % 360, x, x);
     table += row;
   }
-  file("read.csv", table);
-  file("cut.toml",
-       "seed = 1\n[part]\nkind = \"cylinder\"\nradius_mm = 28\n[cut]\nuse = \"wanted\"\n"
-       "[cut.target]\nkind = \"cylinder\"\nradius_mm = 28\nz_start_mm = 60\nz_end_mm = 30\n"
-       "[cut.tool]\nspeed_rpm = 60\nfeed_mm_per_rev = 0.05\nnose_radius_mm = 0.8\nsense = 1\n"
-       "[cut.actuator]\nperfect = true\n[[pass]]\nz_start_mm = 34.9\nz_end_mm = 30.1\n"
-       "feed_mm_per_rev = 0.1618\nreadings_per_revolution = 101.3\n");
-  ASSERT_EQ(command("simulate cut.toml --table read.csv -o cut.csv").exit_code, 0);
-  ASSERT_EQ(command("fit cut.csv --surface cylinder --json cut.json").exit_code, 0);
-  const json p = result("cut.json").at("parameters");
-  const auto of = [&](const char* name) { return p.at(name).at("value").get<double>(); };
-  double coaxiality = 0.0;
-  for (const double z : {30.1, 34.9})
-    coaxiality = std::max(coaxiality, 2.0 * std::hypot(of("x0") + of("l") * z - x0 - tilt_x * z,
-                                                       of("y0") + of("m") * z - y0 - tilt_y * z));
+  const double coaxiality = coaxiality_of_cut(table, x0, y0, tilt_x, tilt_y);
   EXPECT_LE(coaxiality, verdict().at("coaxiality_at_most").at("value").get<double>());
   // A band of 5 mm is straight: its end is 2.5 mm · tilt off, of which U of the axis knows 1 µm.
   EXPECT_NEAR(coaxiality, 4.8 * std::hypot(tilt_x, tilt_y), 1e-3);
@@ -190,12 +209,8 @@ TEST_F(ControlFiles, ThePartThatIsCutIsWithinTheVerdict) {
 
 // Straight lines between 24 rows of a wave of 0.2 mm are A (1 − cos 7.5°) = 1.71 µm off.
 TEST_F(ControlFiles, RowsTooFarApartAreSaid) {
-  const std::string coarse = "rows_per_revolution = 24\n[actuator]\nfollowing_limit_um = 5\n";
-  file("far.toml",
-       "seed = 3\n[part]\nkind = \"cylinder\"\nradius_mm = 30\nx0_mm = 0.2\n[noise]\n"
-       "sigma_um = 0.5\n[[pass]]\nz_start_mm = 0\nz_end_mm = 40\nfeed_mm_per_rev = 1\n"
-       "readings_per_revolution = 36.7\n");
-  ASSERT_EQ(command("simulate far.toml -o seat.csv --force").exit_code, 0);
+  const std::string coarse = "interpolation = \"linear\"\nrows_per_revolution = 24\n" + follows;
+  probe_far_off();
   const CommandStreams done = run(job("[[output]]\nformat = \"grid\"\nc_step_deg = 15\n", coarse));
   ASSERT_EQ(done.exit_code, 0) << done.out;
   const double off_mm = 0.2 * (1.0 - std::cos(7.5 * rad));
@@ -214,11 +229,66 @@ TEST_F(ControlFiles, RowsTooFarApartAreSaid) {
   const int rows = std::stoi(advice.substr(at + 22));
   // A tenth of 10 µm: A (1 − cos(π/M)) = 1 µm at M = 31.4.
   EXPECT_NEAR(rows, 31.4, 1.0);
-  const CommandStreams finer = run(job("", "rows_per_revolution = " + std::to_string(rows) + "\n" +
-                                               coarse.substr(coarse.find('['))));
+  const CommandStreams finer =
+      run(job("", "interpolation = \"linear\"\nrows_per_revolution = " + std::to_string(rows) +
+                      "\n" + follows));
   EXPECT_EQ(finer.exit_code, 0) << finer.out;
   EXPECT_FALSE(contains(finer.out, "rows   ")) << finer.out;
   EXPECT_LE(largest().get<double>(), 1e-3);
+}
+
+// 24 rows keep the tolerance only if the control joins them: nobody said so.
+TEST_F(ControlFiles, ATableOfWhichNobodySaysHowItIsReadIsNotProven) {
+  probe_far_off();
+  const CommandStreams done = run(job("", "rows_per_revolution = 24\n" + follows));
+  EXPECT_EQ(done.exit_code, 1) << done.out;
+  EXPECT_TRUE(contains(done.out, "NOT PROVEN")) << done.out;
+  EXPECT_TRUE(contains(done.out, "state interpolation = ")) << done.out;
+  EXPECT_FALSE(there("out/table.csv"));
+  const json reason = verdict().at("reasons").at(0);
+  EXPECT_EQ(reason.at("code"), "interpolation_not_stated");
+  const json between = result("out/result.json").at("correction").at("between_rows");
+  EXPECT_EQ(between.at("interpolation"), "not_stated");
+  // Eq. 114b: the last value before the next row, and half a row late. U of the axis is below 1 µm.
+  const double off_mm = 2.0 * 0.2 * std::sin(7.5 * rad);
+  EXPECT_NEAR(between.at("held").at("largest").at("value").get<double>(), off_mm, 0.01 * off_mm);
+  const double x = 7.5 * rad, kept = std::sin(x) / x;
+  const double once_mm = 0.2 * std::hypot(1.0 - kept * std::cos(x), kept * std::sin(x));
+  EXPECT_NEAR(between.at("held").at("once").at("value").get<double>(), once_mm, 0.01 * once_mm);
+  // The rows that are advised keep it for a control that holds them, and without a statement.
+  const std::string line = verdict().at("line");
+  const std::size_t at = line.find("rows_per_revolution = ");
+  ASSERT_NE(at, std::string::npos) << line;
+  const std::string rows = line.substr(at, line.find(' ', at + 22) - at) + "\n";
+  for (const char* stated : {"", "interpolation = \"none\"\n"})
+    EXPECT_EQ(run(job("", rows + stated + follows)).exit_code, 0) << rows << stated;
+}
+
+// The lathe cuts with rows that are held: the verdict of that statement has its error.
+TEST_F(ControlFiles, ThePartCutWithHeldRowsIsWithinTheVerdict) {
+  probe_far_off();
+  const std::string held = "interpolation = \"none\"\n";
+  const CommandStreams coarse = run(job("", "rows_per_revolution = 24\n" + held + follows));
+  EXPECT_EQ(coarse.exit_code, 1) << coarse.out;
+  EXPECT_TRUE(contains(coarse.out, "NO-GO")) << coarse.out;
+  EXPECT_TRUE(contains(coarse.out, "table.csv keeps the tolerance with rows_per_revolution = "))
+      << coarse.out;
+  ASSERT_EQ(run(job("", "rows_per_revolution = 300\n" + held + follows)).exit_code, 0);
+  const auto rows = read_rows(text("out/table.csv"));
+  std::string table = "# schema: trueaxis.correction/1\nrev,Z[mm],C[deg],X_fts[mm],X_command[mm]\n";
+  for (int i = 0; i <= 600 * 600; ++i) {  // a row where it begins and just before the next
+    char row[128];
+    const double turns = i / 2 / 300.0 + (i % 2 == 0 ? 0.0 : 0.98 / 300.0);
+    const double z = std::max(z_end, z_start - 0.05 * turns);
+    const double x = rows.at(static_cast<std::size_t>(i % 600 / 2)).x_mm;
+    std::snprintf(row, sizeof row, "%d,%.6f,%.6f,%.7f,%.7f\n", i / 600, z,
+                  360.0 * (turns - i / 600), x, x);
+    table += row;
+  }
+  const double coaxiality = coaxiality_of_cut(table, 0.2, 0.0, 0.0, 0.0);
+  EXPECT_LE(coaxiality, verdict().at("coaxiality_at_most").at("value").get<double>());
+  // Half a row late, 2 A π/M, of which U of the axis knows 1 µm.
+  EXPECT_NEAR(coaxiality, 2.0 * 0.2 * std::sin(0.6 * rad), 1e-3);
 }
 
 // halstreamer holds a line until the next: half a row late, A π/M, a diameter of 2 A π/M.
@@ -238,7 +308,7 @@ TEST_F(ControlFiles, ALineThatIsHeldIsCounted) {
 
 // A servo's program, straight between its blocks in C, X and Z.
 TEST_F(ControlFiles, AProgramIsReadBlockByBlock) {
-  ASSERT_EQ(run(job(servo, "rows_per_revolution = 90\n")).exit_code, 0);
+  ASSERT_EQ(run(job(servo, "interpolation = \"linear\"\nrows_per_revolution = 90\n")).exit_code, 0);
   const TargetLine axis(result("out/result.json").at("target_axis"));
   const auto blocks = read_blocks(text("out/servo.nc"), true);
   OffOverATurn worst;

@@ -42,6 +42,7 @@ Job job_of(const Scenario& s, double tolerance_um) {
   job.target = TargetSurface{.z_start_mm = 60.0, .z_end_mm = 45.0, .radius_mm = 20.0};
   job.coaxiality_tolerance_mm = 1e-3 * tolerance_um;
   job.tool.feed_mm_per_rev = 1.0;
+  job.tool.interpolation = Interpolation::linear;
   job.values_of_form = false;
   return job;
 }

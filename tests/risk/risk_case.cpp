@@ -206,6 +206,7 @@ Drawn draw_job(Group group, std::uint64_t seed, bool slips) {
   target.z_start_mm = target.z_end_mm + draw.between(5.0, 15.0);
   out.job.target = target;
   out.job.tool.feed_mm_per_rev = 1.0;
+  out.job.tool.interpolation = Interpolation::linear;
   return out;
 }
 

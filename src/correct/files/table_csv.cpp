@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -45,6 +47,22 @@ std::int64_t wrapped_microdegrees(double c_rad) {
   return units < 0 ? units + turn : units;
 }
 
+/// FNV-1a: a table's reader in a servo thread has no library.
+std::uint64_t fnv1a(std::string_view bytes) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
+  return hash;
+}
+
+/// A second line, with the checksum of all that follows it.
+std::string with_checksum(const std::string& text) {
+  const std::size_t second = text.find('\n') + 1;
+  return text.substr(0, second) +
+         fmt::format("# checksum: fnv1a-64:{:016x} of the lines below\n",
+                     fnv1a(std::string_view(text).substr(second))) +
+         text.substr(second);
+}
+
 }  // namespace
 
 std::string correction_csv(const Correction& correction) {
@@ -77,7 +95,7 @@ std::string correction_csv(const Correction& correction) {
       out = block.data();
     }
   }
-  return text.append(block.data(), out);
+  return with_checksum(text.append(block.data(), out));
 }
 
 }  // namespace trueaxis

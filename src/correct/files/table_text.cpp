@@ -75,6 +75,12 @@ std::string following_text(const ActuatorMargin& margin) {
          " µm if the wanted profile were sent), steady run";
 }
 
+/// Rounded down; at least the speed of the table.
+std::string speed_limit_text(const ActuatorMargin& margin, double speed_rpm) {
+  return fmt::format("{:.6g} rpm, the highest that the actuator follows",
+                     std::max(speed_rpm, std::floor(std::min(margin.max_speed_rpm, 99999.0))));
+}
+
 std::string speed_text(const ActuatorMargin& margin) {
   if (!(margin.max_speed_rpm > 0.0)) return "at no speed";
   return or_never(margin.max_speed_rpm, "rpm",
@@ -111,11 +117,15 @@ std::string correction_header(const Correction& correction) {
       {"tool_angle_from_probe", fixed(tool.angle_from_probe_rad / rad_per_deg, 6) + " deg"},
       {"nose_radius", fixed(tool.nose_radius_mm, 6) + " mm"},
       {"speed", fmt::format("{:.6g} rpm", tool.speed_rpm)},
+      {"speed_limit", speed_limit_text(margin, tool.speed_rpm)},
       {"feed", fmt::format("{:.6g} mm/rev", tool.feed_mm_per_rev)},
       {"rows_per_revolution",
-       fmt::format("{}, linear in between, {}_fts there off by at most {} µm",
+       fmt::format("{}, linear in between, {}_fts there off by at most {} µm; held until the next, "
+                   "off by at most {} µm",
                    tool.rows_per_revolution, along,
-                   fixed(correction.between_rows.largest_mm * um, 4))},
+                   fixed(correction.between_rows.largest_mm * um, 4),
+                   fixed(correction.held_rows.largest_mm * um, 4))},
+      {"interpolation", to_string(tool.interpolation)},
       {"actuator", actuator_text(correction.actuator)},
       {"stroke_used", fixed(margin.stroke_used_mm * um, 3) + " µm of " +
                           fixed(margin.stroke_available_mm * um, 3) + " µm"},
@@ -141,7 +151,8 @@ std::string correction_preview(const Correction& correction) {
   text += "rows        " + std::to_string(rows.wanted_mm.size()) + " in " +
           std::to_string(rows.revolution.empty() ? 0 : rows.revolution.back() + 1) +
           " revolutions, straight lines between them off by at most " +
-          fixed(correction.between_rows.largest_mm * um, 3) + " µm\n";
+          fixed(correction.between_rows.largest_mm * um, 3) + " µm, rows held until the next by " +
+          fixed(correction.held_rows.largest_mm * um, 3) + " µm\n";
   text += std::string(face ? "Z_fts       " : "X_fts       ") + range(rows.wanted_mm) + '\n';
   text += std::string(face ? "Z_command   " : "X_command   ") + range(rows.command_mm) + '\n';
   text += "harmonics   A cos(nC - phase), at the start and the end of the cut\n";

@@ -176,8 +176,12 @@ Json correction_object(const Correction& correction) {
            {{"start", with_unit(correction.position_start_mm, "mm")},
             {"end", with_unit(correction.position_end_mm, "mm")}}},
           {"between_rows",
-           {{"largest", with_unit(correction.between_rows.largest_mm, "mm")},
-            {"once", with_unit(correction.between_rows.once_mm, "mm")}}},
+           {{"interpolation", to_string(correction.tool.interpolation)},
+            {"largest", with_unit(correction.between_rows.largest_mm, "mm")},
+            {"once", with_unit(correction.between_rows.once_mm, "mm")},
+            {"held",
+             {{"largest", with_unit(correction.held_rows.largest_mm, "mm")},
+              {"once", with_unit(correction.held_rows.once_mm, "mm")}}}}},
           {"harmonics", list_of(correction.harmonics, harmonic)},
           {"margin",
            {{"follows", m.follows},
@@ -333,11 +337,9 @@ std::string job_text(const JobResult& result) {
     text += "references  " + words_of(how_apart(d), result) + "\n";
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion      " + inclusion_text(inclusion);
-  if (result.correction) {
-    text += correction_preview(*result.correction) + "\n";
-    if (const std::string rows = coarse_rows_words(result); !rows.empty())
-      text += "rows        " + rows + "\n";
-  }
+  if (result.correction)
+    text +=
+        correction_preview(*result.correction) + "\n" + coarse_rows_lines(result, "rows        ");
   return text;
 }
 

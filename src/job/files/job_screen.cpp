@@ -130,8 +130,7 @@ std::string job_screen(const JobResult& result) {
   text += datum_screen(result);
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion " + inclusion_text(inclusion);
-  if (const std::string rows = result.correction ? coarse_rows_words(result) : ""; !rows.empty())
-    text += "rows   " + rows + "\n";
+  text += coarse_rows_lines(result, "rows   ");
   return text + (asks_for_proof(result) ? "" : next_screen(result));
 }
 

@@ -76,7 +76,8 @@ std::string job_stub(const std::string& path, const ProbeStream& stream) {
       "# speed_rpm = 600\n"
       "# sense = \"+c\"\n"
       "# feed_mm_per_rev = 0.1\n"
-      "# nose_radius_mm = 0.8\n",
+      "# nose_radius_mm = 0.8\n"
+      "# interpolation = \"linear\" # or \"none\": what the control does between two rows\n",
       high, low);
   return text;
 }

@@ -139,6 +139,9 @@ ToolSetup read_tool(TomlTable table) {
   tool.c_start_rad = table.number("c_start_rad", tool.c_start_rad);
   tool.rows_per_revolution =
       static_cast<int>(table.integer("rows_per_revolution", tool.rows_per_revolution, 8, 100000));
+  tool.interpolation = table.choice<Interpolation>(
+      "interpolation", {{"linear", Interpolation::linear}, {"none", Interpolation::none}},
+      tool.interpolation);
   return tool;
 }
 

@@ -88,9 +88,14 @@ std::string verdict_line(const JobResult& result) {
   return line;
 }
 
-std::string coarse_rows_words(const PlannedJob& job) {
-  const auto coarse = coarse_rows(job);
-  return coarse ? words_of(*coarse) : "";
+std::string coarse_rows_words(const PlannedJob& job) { return words_of(coarse_rows(job), "; "); }
+
+std::string coarse_rows_lines(const PlannedJob& job, std::string_view label) {
+  std::string lines;
+  if (job.correction)
+    for (const Reason& coarse : coarse_rows(job))
+      lines += std::string(label) + words_of(coarse) + "\n";
+  return lines;
 }
 
 std::string datum_words(const IdentifiedJob& job) {

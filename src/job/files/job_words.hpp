@@ -26,6 +26,8 @@ std::string verdict_line_alone(const JobResult& result);
 
 /// How far lines between rows are off, where that is more than allowed; empty: it is not.
 std::string coarse_rows_words(const PlannedJob& job);
+/// Each of them as a line of a screen.
+std::string coarse_rows_lines(const PlannedJob& job, std::string_view label);
 
 /// How the datum follows from the references.
 std::string datum_words(const IdentifiedJob& job);

@@ -68,6 +68,7 @@ speed_rpm = 600
 sense = "+c"                # the way that C counts while cutting
 feed_mm_per_rev = 0.2
 nose_radius_mm = 0.8
+interpolation = "linear"    # the control joins the rows of the table by straight lines; none: holds
 
 [actuator]                  # the fast tool servo
 stroke_um = 600
