@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "trueaxis/correction.hpp"
 #include "trueaxis/units.hpp"
@@ -50,5 +51,13 @@ std::string objection_to(const ControlTable& table, const TargetSurface& target,
 
 /// @throws ContractViolation where objection_to() has one
 MadeControlTable make_control_table(const Correction& correction, const ControlTable& table);
+
+/// What a control that interpolates `values` (of the rows, mm) over C and position makes of a
+/// table: linear along C between the rows, and along the position between two revolutions at the
+/// same C. Beyond the ends of the path the ends are held. The servo component for LinuxCNC does the
+/// same, bit for bit.
+/// @param turns since the first row, in the sense of the cut: sense · (C − c_start) / 2π
+double table_value_mm(const CorrectionRows& rows, const std::vector<double>& values,
+                      int rows_per_revolution, double turns, double position_mm);
 
 }  // namespace trueaxis
