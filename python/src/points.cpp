@@ -23,7 +23,11 @@ using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
 template <class Enum, std::size_t N>
 Enum named(const std::array<const char*, N>& names, const std::string& name, const char* what) {
   const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw InputError(name, std::string("is not ") + what);
+  if (found == names.end()) {
+    std::string known;
+    for (const char* one : names) known += (known.empty() ? "" : ", ") + std::string(one);
+    throw InputError(name, std::string("is not ") + what + ": use one of " + known);
+  }
   return static_cast<Enum>(found - names.begin());
 }
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._arguments import with_checked_arguments
 from ._errors import InputError, ended
 from ._result import Result
 from ._streams import Path
@@ -55,6 +56,7 @@ def _run(words: Sequence[str], doing: str, progress: Progress, json: FilePath, f
     return result
 
 
+@with_checked_arguments
 def run_job(job: Document, output: Path | None = None, *, force: bool = False, progress: Progress = None) -> Result:
     """Does a whole job of a lathe or of a machine: fit, diagnosis, correction, verdict.
 
@@ -84,6 +86,7 @@ def run_job(job: Document, output: Path | None = None, *, force: bool = False, p
 _PART = ("surface", "radius_mm", "half_angle_deg", "length_mm", "feed_mm", "per_revolution", "speed_rpm", "sigma_um")
 
 
+@with_checked_arguments
 def plan(scenario: Document | None = None, *, goal_um: float, free: Mapping[str, tuple[float, float]] | None = None,
          coverage_factor: float = 2.0, time_s: float | None = None, rate_hz: float | None = None,
          repeats: int = 1000, seed: int = 1, threads: int = 0, progress: Progress = None, **part: Any) -> Result:
@@ -134,6 +137,7 @@ def plan(scenario: Document | None = None, *, goal_um: float, free: Mapping[str,
             return _run(["study", "plan", path, *ending], "plan", progress, json, verdict=True)
 
 
+@with_checked_arguments
 def sweep(sweep: Document, output: Path | None = None, *, threads: int = 0, force: bool = False,
           progress: Progress = None) -> Result:
     """Repeats a scenario over a grid with other noise, and compares with the Cramér-Rao bound.
@@ -173,6 +177,7 @@ def _on_machine(command: str, inputs: Sequence[str], machine: Document, written:
         return _run(words, doing, progress, json, folder, scratch=True)
 
 
+@with_checked_arguments
 def calibrate(measurements: Path | Sequence[Path], machine: Document, *, errors: Sequence[Path] = (),
               sign: str | None = None, large_errors: bool = False, progress: Progress = None) -> Result:
     """Estimates the errors of a machine from measurements of a ball, a bar, an array or a read-out.
@@ -204,6 +209,7 @@ def calibrate(measurements: Path | Sequence[Path], machine: Document, *, errors:
                        progress, given)
 
 
+@with_checked_arguments
 def compensate(program: Path, machine: Document, *, errors: Sequence[Path] = (), sign: str | None = None,
                large_errors: bool = False, method: str = "exact", rotary: str = "moved",
                tolerance_um: float | None = None, arcs_mm: float | None = None, decimals: int = 4,

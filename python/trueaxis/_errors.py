@@ -36,6 +36,6 @@ for _kind in (TrueAxisError, InputError, Refused, NumericalError):
 def ended(code: int, why: str, result: Any = None) -> TrueAxisError:
     """Returns the error for an exit code of the command."""
     kind = {1: Refused, 2: InputError, 3: InputError, 4: NumericalError}.get(code, TrueAxisError)
-    error = kind(why.strip().removeprefix("refused: "))
+    error = kind(why.replace("Run with --help for more information.", "").strip().removeprefix("refused: "))
     error.result = result
     return error

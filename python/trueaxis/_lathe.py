@@ -2,6 +2,7 @@
 """Readings of a lathe: fit, diagnosis, form, spindle, correction and simulation."""
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -9,25 +10,34 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import number, one_of, with_checked_arguments
 from ._errors import InputError
 from ._result import Result, result_of
 from ._streams import Path, Readings, Stream, numbers_of, taken
 from ._toml import Document, as_file, as_text
-from ._work import Progress, Shown, number, one_of
+from ._work import Progress, Shown
 
 _LOSSES = ("plain", "huber", "tukey")
 
 
+def _seed(seed: int) -> int:
+    if not 0 <= seed < 2**64:
+        raise InputError(f"seed: {seed} is not a whole number from 0 to 2^64 - 1")
+    return int(seed)
+
+
+@functools.lru_cache(64)
 def _association(surface: str, loss: str, bore: bool, ball_radius_mm: float, noise_um: float | None,
-                 known: Mapping[str, str], coverage_factor: float) -> _core.Association:
+                 coverage_factor: float, known: tuple[str, ...] = ()) -> _core.Association:
+    """What a caller states, of which fits in a row state the same."""
     if noise_um is not None:
         number("noise_um", noise_um, 0.0)
     return _core.Association(
         surface, one_of("loss", loss, _LOSSES), bore, number("ball_radius_mm", ball_radius_mm, 0.0), noise_um,
-        [f"{key}={value}" for key, value in known.items()],
-        number("coverage_factor", coverage_factor, 0.0, 100.0, above=True))
+        list(known), number("coverage_factor", coverage_factor, 0.0, 100.0, above=True))
 
 
+@with_checked_arguments
 def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | None = None, *, surface: str,
         loss: str = "plain", bore: bool = False, ball_radius_mm: float = 0.0, noise_um: float | None = None,
         coverage_factor: float = 2.0, checked: bool = True, progress: Progress = None, **units: Any) -> Result:
@@ -78,11 +88,12 @@ def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | N
         If the axis is not known; ``error.result`` says why.
     """
     stream = taken(readings, c, z, units)
-    association = _association(surface, loss, bore, ball_radius_mm, noise_um, {}, coverage_factor)
+    association = _association(surface, loss, bore, ball_radius_mm, noise_um, coverage_factor)
     with Shown("fit", progress) as shown:
         return result_of(_core.fit(stream, association, checked, shown), stream)
 
 
+@with_checked_arguments
 def diagnose(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | None = None, *, surface: str,
              loss: str = "plain", bore: bool = False, ball_radius_mm: float = 0.0, noise_um: float | None = None,
              known: Mapping[str, str] | None = None, coverage_factor: float = 2.0, false_alarm: float = 0.01,
@@ -106,12 +117,14 @@ def diagnose(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLik
         and ``spectrum_order``, ``spectrum_before_mm``, ``spectrum_after_mm``.
     """
     stream = taken(readings, c, z, units)
-    association = _association(surface, loss, bore, ball_radius_mm, noise_um, known or {}, coverage_factor)
+    stated = tuple(f"{key}={value}" for key, value in (known or {}).items())
+    association = _association(surface, loss, bore, ball_radius_mm, noise_um, coverage_factor, stated)
     number("false_alarm", false_alarm, 0.0, 0.5, above=True)
     with Shown("diagnosis", progress) as shown:
         return result_of(_core.diagnose(stream, association, false_alarm, shown), stream)
 
 
+@with_checked_arguments
 def form(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | None = None, *,
          element: str | None = None, filter: str = "gaussian", band_upr: tuple[float, float] = (1.0, 50.0),
          bore: bool = False, ball_radius_mm: float = 0.0, noise_um: float | None = None,
@@ -153,7 +166,7 @@ def form(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | 
         filter, (float(band_upr[0]), float(band_upr[1])), bore, number("ball_radius_mm", ball_radius_mm, 0.0),
         None if noise_um is None else number("noise_um", noise_um, 0.0),
         number("spindle_range_um", spindle_range_um, 0.0), datum_association,
-        number("coverage_factor", coverage_factor, 0.0, 100.0, above=True), int(number("trials", trials, 10)), seed,
+        number("coverage_factor", coverage_factor, 0.0, 100.0, above=True), int(number("trials", trials, 10)), _seed(seed),
         int(number("threads", threads, 0, 4096)))
     if element is not None:
         if c is not None or z is not None or units or datum is not None:
@@ -166,6 +179,7 @@ def form(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | 
         return result_of(_core.form(stream, about, options, shown), stream)
 
 
+@with_checked_arguments
 def associate(points: npt.ArrayLike | Path, *, element: str, criterion: str = "gaussian", material: str | None = None,
               unit: str | None = None, array: str = "", threads: int = 0, progress: Progress = None) -> Result:
     """Fits an element to Cartesian points in any orientation, without starting values (ISO 17450-1).
@@ -196,6 +210,7 @@ def associate(points: npt.ArrayLike | Path, *, element: str, criterion: str = "g
     """
     if (criterion == "constrained") == (material is None):
         raise InputError('material: say "inside" or "outside" with criterion "constrained", and with no other')
+    number("threads", threads, 0, 4096)
     side = one_of("material", material or "inside", ("inside", "outside"))
     with Shown("association", progress) as shown:
         if isinstance(points, (str,)) or hasattr(points, "__fspath__"):
@@ -207,6 +222,7 @@ def associate(points: npt.ArrayLike | Path, *, element: str, criterion: str = "g
         return result_of(_core.associate(rows, element, criterion, side, threads, shown))
 
 
+@with_checked_arguments
 def spindle(streams: Stream | Path | Sequence[Stream | Path], *, order_max: int = 100,
             sensitive_direction_deg: float | None = None, u_angle_deg: float = 0.0, u_reindex_deg: float = 0.0,
             largest_condition: float = 100.0, coverage_factor: float = 2.0, progress: Progress = None) -> Result:
@@ -236,6 +252,8 @@ def spindle(streams: Stream | Path | Sequence[Stream | Path], *, order_max: int 
         ``u_form_mm`` over one revolution.
     """
     one = isinstance(streams, (Stream, str)) or hasattr(streams, "__fspath__")
+    if not one and not isinstance(streams, (list, tuple)):
+        raise InputError("streams: give a stream, a path, or a list of them")
     many: list[Any] = [streams] if one else list(streams)  # type: ignore[arg-type]
     all_streams = [taken(each, None, None, {}) for each in many]
     with Shown("separation", progress) as shown:
@@ -246,6 +264,7 @@ def spindle(streams: Stream | Path | Sequence[Stream | Path], *, order_max: int 
             number("coverage_factor", coverage_factor, 0.0, 100.0, above=True), shown))
 
 
+@with_checked_arguments
 def correct(diagnosis: Result, target: Document, *, progress: Progress = None) -> Result:
     """Computes the correction table of a diagnosed stream, or refuses to.
 
@@ -269,7 +288,7 @@ def correct(diagnosis: Result, target: Document, *, progress: Progress = None) -
     Refused
         If the table must not be run; ``error.result`` has the verdict.
     """
-    outcome = diagnosis._outcome
+    outcome = diagnosis._outcome if isinstance(diagnosis, Result) else None
     if not isinstance(outcome, _core.DiagnosisOutcome):
         raise InputError("diagnosis: give what diagnose() returns")
     with as_file(target, "target.toml") as path, Shown("correction", progress) as shown:
@@ -291,6 +310,7 @@ class Simulation(NamedTuple):
     truth: Result
 
 
+@with_checked_arguments
 def simulate(scenario: Document, *, seed: int | None = None, progress: Progress = None) -> Simulation:
     """Probes a part on the virtual lathe.
 
@@ -305,5 +325,5 @@ def simulate(scenario: Document, *, seed: int | None = None, progress: Progress 
     """
     text, name = as_text(scenario, "scenario")
     with Shown("simulation", progress) as shown:
-        stream, truth = _core.simulate(text, name, seed, shown)
+        stream, truth = _core.simulate(text, name, None if seed is None else _seed(seed), shown)
     return Simulation(stream, result_of(truth, stream))

@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import one_of, with_checked_arguments
 from ._errors import InputError
-from ._streams import Path
+from ._streams import Path, numbers_of
 from ._toml import Document, as_file
 from ._values import Floats
 
@@ -55,12 +56,12 @@ class Machine:
 
     __slots__ = ("_machine", "name", "chain", "axes", "notes")
 
+    @with_checked_arguments
     def __init__(self, machine: Document, *, errors: Sequence[Path] = (), sign: str | None = None,
                  large_errors: bool = False, work_offset: str = "G54") -> None:
-        if sign not in (None, "moving_part", "tool_minus_workpiece"):
-            raise InputError(f'sign {sign!r}: write "moving_part" or "tool_minus_workpiece"')
-        if work_offset not in ("G54", "G55", "G56", "G57", "G58", "G59"):
-            raise InputError(f"work_offset {work_offset!r}: write G54 to G59")
+        if sign is not None:
+            one_of("sign", sign, ("moving_part", "tool_minus_workpiece"))
+        one_of("work_offset", work_offset, ("G54", "G55", "G56", "G57", "G58", "G59"))
         with as_file(machine, "machine.toml") as path:
             self._machine = _core.open_machine(path, [os.fspath(one) for one in errors], sign or "", large_errors,
                                                work_offset)
@@ -69,6 +70,7 @@ class Machine:
         self.axes: tuple[str, ...] = tuple(self._machine.axes)
         self.notes: tuple[str, ...] = tuple(self._machine.notes)
 
+    @with_checked_arguments
     def pose(self, *, nominal: bool = False, **positions: npt.ArrayLike) -> Poses:
         """Computes where the tool is in the part.
 
@@ -88,7 +90,7 @@ class Machine:
         names = [f"{axis.lower()}_{'mm' if axis in 'XYZ' else 'deg'}" for axis in self.axes]
         if set(positions) != set(names):
             raise InputError(f"give a position of each axis, with its unit: {', '.join(names)}")
-        columns = np.broadcast_arrays(*(np.asarray(positions[name], dtype=np.float64) for name in names))
+        columns = np.broadcast_arrays(*(numbers_of(name, positions[name]) for name in names))
         rows = np.stack([column.reshape(-1) for column in columns], axis=1)
         if not np.isfinite(rows).all():
             raise InputError("a position is not finite")

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from . import _core
 
 
+_set = object.__setattr__
+
+
 class _Files(Mapping[str, str]):
     """Texts that are made when they are asked for."""
 
@@ -47,15 +50,13 @@ class Result:
 
     Attributes
     ----------
-    files : Mapping of str to str
-        Text of each file that the command would write, by its name: ``report.html``, ``table.csv``.
     stream : Stream or None
         The readings.
     """
 
-    __slots__ = ("_make", "_screen", "_outcome", "_json", "_tree", "files", "stream")
+    __slots__ = ("_make", "_screen", "_outcome", "_json", "_tree", "_files", "stream")
 
-    files: Mapping[str, str]
+    _files: Mapping[str, str]
     stream: Stream | None
     _outcome: _core.Outcome | None
     _json: str | None
@@ -63,11 +64,18 @@ class Result:
 
     def __init__(self, make: Callable[[], str], screen: Callable[[], str], stream: Stream | None = None,
                  outcome: _core.Outcome | None = None, files: Mapping[str, str] = MappingProxyType({})) -> None:
-        for name, value in (("_make", make), ("_screen", screen), ("_outcome", outcome), ("_json", None),
-                            ("_tree", None),
-                            ("files", MappingProxyType(dict(files)) if outcome is None else _Files(outcome)),
-                            ("stream", stream)):
-            object.__setattr__(self, name, value)
+        _set(self, "_make", make)
+        _set(self, "_screen", screen)
+        _set(self, "_outcome", outcome)
+        _set(self, "_json", None)
+        _set(self, "_tree", None)
+        _set(self, "_files", files)
+        _set(self, "stream", stream)
+
+    @property
+    def files(self) -> Mapping[str, str]:
+        """Text of each file that the command would write, by its name: ``report.html``, ``table.csv``."""
+        return MappingProxyType(dict(self._files)) if self._outcome is None else _Files(self._outcome)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError("a result does not change")
@@ -87,7 +95,7 @@ class Result:
     def to_json(self) -> str:
         """Returns the text that the command writes with ``--json``."""
         if self._json is None:
-            object.__setattr__(self, "_json", self._make())
+            _set(self, "_json", self._make())
         return str(self._json)
 
     def to_dict(self) -> dict[str, Any]:
@@ -96,7 +104,7 @@ class Result:
 
     def _all(self) -> Node:
         if self._tree is None:
-            object.__setattr__(self, "_tree", frozen(self.to_dict()))
+            _set(self, "_tree", frozen(self.to_dict()))
         assert self._tree is not None
         return self._tree
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import with_checked_arguments
 from ._errors import InputError
 from ._values import Floats
 
@@ -79,6 +80,7 @@ def _named_columns(x: npt.ArrayLike, c: npt.ArrayLike | None, z: npt.ArrayLike |
     return columns
 
 
+@with_checked_arguments
 def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | None = None,
            z: npt.ArrayLike | None = None, *, x_unit: str | None = None, c_unit: str | None = None,
            z_unit: str | None = None, t_s: npt.ArrayLike | None = None, relative: bool = False,
@@ -159,6 +161,7 @@ def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | No
     return made
 
 
+@with_checked_arguments
 def read(path: Path, *, x: str | None = None, relative: bool = False, nominal_radius_mm: float | None = None,
          columns: str = "", skip: int = 0, z_from_mm: float | None = None, z_to_mm: float | None = None,
          drop_invalid: bool = False, sensor_angles_deg: Sequence[float] = ()) -> Stream:
