@@ -3,16 +3,19 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
+#include "cli/probing_program.hpp"
 #include "cli/results.hpp"
 #include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "simulate/files/scenario_files.hpp"
 #include "study/planning/files/planning_files.hpp"
+#include "study/planning/probing_plan.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -49,6 +52,7 @@ struct PlanArguments {
   std::vector<std::string> free;
   double goal_um = 1.0;
   study::PlanningTask task;
+  ProbingOption program;
   bool check = false;
 };
 
@@ -80,6 +84,30 @@ class PlanProgress {
   std::size_t done_ = 0;
 };
 
+/// The quickest of the recommended plans that the probe at hand reads.
+const study::Recommendation* to_drive(const study::PlanningTask& task,
+                                      const study::PlanningAnswer& answer) {
+  const study::Recommendation* best = nullptr;
+  for (const study::Recommendation& one : answer.recommended)
+    if (one.plan.scenario.noise.sigma_mm >= task.base.noise.sigma_mm &&
+        (best == nullptr || one.plan.time_s < best->plan.time_s))
+      best = &one;
+  return best;
+}
+
+/// Writes the program of a plan; what the screen says of it.
+std::string write_program(const PlanArguments& options, const study::Recommendation* chosen,
+                          Outputs& outputs) {
+  if (chosen == nullptr)
+    return "\nNo program is written: no plan is recommended that the probe at hand can read\n";
+  const std::string& place = options.results["--output"];
+  nc::ProbingPlan plan = study::probing_plan(chosen->plan.scenario);
+  plan.what = chosen->what;
+  const nc::ProbingProgram program = options.program.write(std::move(plan), place);
+  outputs.write(place, program.text);
+  return "\nProgram of the plan " + chosen->what + "\n  " + ProbingOption::line(program, place);
+}
+
 int execute(PlanArguments options) {
   study::PlanningTask& task = options.task;
   std::string hash = content_hash("");
@@ -106,16 +134,23 @@ int execute(PlanArguments options) {
   const Results& results = options.results;
   Outputs outputs(results.force);
   if (!options.scenario.empty()) outputs.reads(options.scenario);
+  if (options.program.asked() != results.asked("--output"))
+    throw CLI::RequiredError(options.program.asked() ? "--output" : "--program");
+  options.program.read(outputs);
   results.name_to(outputs);
   outputs.check();
+  if (options.program.asked()) study::probing_plan(task.base);
   if (options.check) return checked(outputs, "search the plans and confirm them by simulation");
   PlanProgress progress;
   const study::PlanningAnswer answer = study::plan_measurement(task, std::ref(progress));
   progress.end();
   results.write(outputs, "--json", [&] { return planning_json(task, answer, hash); });
+  const bool drive = options.program.asked();
+  const study::Recommendation* const chosen = drive ? to_drive(task, answer) : nullptr;
+  const std::string program = drive ? write_program(options, chosen, outputs) : "";
   outputs.commit();
-  if (!results.printed()) std::cout << planning_text(task, answer);
-  return answer.reached && answer.confirmed ? done : refused;
+  if (!results.printed()) std::cout << planning_text(task, answer) << program;
+  return answer.reached && answer.confirmed && (!drive || chosen) ? done : refused;
 }
 
 void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {
@@ -164,6 +199,9 @@ void add_plan(CLI::App* command, int& exit_code) {
   command->add_option("--seed", options->task.seed, "seed of the simulations")
       ->capture_default_str();
   add_threads(*command, options->task.threads);
+  options->program.add_to(*command);
+  options->results.add(*command, "-o,--output", "trueaxis.probing_program",
+                       "program of the quickest plan recommended, with --program");
   options->results.add(*command, "--json", "trueaxis.plan", "result (JSON); - prints it");
   add_force(*command, options->results.force);
   add_check(*command, options->check);

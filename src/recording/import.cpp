@@ -312,7 +312,7 @@ ProbeStream read_recording(const std::string& path, const RecordingOptions& opti
 
 Recording recognise_recording(const RecordedText& text, const std::string& path, std::size_t skip,
                               std::optional<char> decimal) {
-  for (const auto read : {&read_twincat_scope, &read_camonitor, &read_words}) {
+  for (const auto read : {&read_probe_log, &read_twincat_scope, &read_camonitor, &read_words}) {
     Recording recording;
     if (skip == 0 && !decimal && read(text, recording)) return recording;
   }

@@ -73,6 +73,18 @@ bool read_twincat_scope(const RecordedText& text, Recording& out);
 /// EPICS camonitor: "PV date time value", channels interleaved and of unequal rates. The slower
 /// ones are interpolated linearly at the instants of the fastest.
 bool read_camonitor(const RecordedText& text, Recording& out);
+/// The log of a probing program that TrueAxis wrote: its head says all. Rows are touch points, or
+/// what halsampler -t writes, appended to it.
+bool read_probe_log(const RecordedText& text, Recording& out);
+
+/// A letter and its number.
+struct RecordedWord {
+  char letter;
+  std::string_view number;
+};
+/// The words of a line that holds nothing else; empty for any other line. A control writes blanks
+/// between a letter and its number (FANUC, Haas: DPRNT pads with them), other programs a '='.
+std::vector<RecordedWord> recorded_words(std::string_view line);
 /// Words of a letter and a number, "X   10.0012 C   30.0000": DPRNT, point lists of RS-274.
 bool read_words(const RecordedText& text, Recording& out);
 /// The columns of an HDF5, MATLAB or NumPy file, the longest ones; every number to its last digit.

@@ -12,17 +12,12 @@
 namespace trueaxis {
 namespace {
 
-struct Word {
-  char letter;
-  std::string_view number;
-};
-
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-/// The words of a line that holds nothing else; empty for any other line. A control writes blanks
-/// between a letter and its number (FANUC, Haas: DPRNT pads with them), other programs a '='.
-std::vector<Word> words_of(std::string_view line) {
-  std::vector<Word> words;
+}  // namespace
+
+std::vector<RecordedWord> recorded_words(std::string_view line) {
+  std::vector<RecordedWord> words;
   std::size_t at = 0;
   const auto skip = [&] {
     while (at < line.size() && (csv_is_blank(line[at]) || line[at] == '*')) ++at;
@@ -46,8 +41,6 @@ std::vector<Word> words_of(std::string_view line) {
   return words;
 }
 
-}  // namespace
-
 bool read_words(const RecordedText& text, Recording& out) {
   std::size_t others = 0;
   std::string first_other;
@@ -59,7 +52,7 @@ bool read_words(const RecordedText& text, Recording& out) {
       out.metadata.emplace_back(line);
       continue;
     }
-    const std::vector<Word> words = words_of(line);
+    const std::vector<RecordedWord> words = recorded_words(line);
     if (words.size() < 2) {
       if (others++ == 0) first_other = csv_quoted(line);
       if (line == "G20" || line.find("INCH") != std::string_view::npos ||
@@ -69,9 +62,9 @@ bool read_words(const RecordedText& text, Recording& out) {
       continue;
     }
     if (letters.empty())
-      for (const Word& word : words) letters.push_back(word.letter);
+      for (const RecordedWord& word : words) letters.push_back(word.letter);
     std::vector<std::string_view> row(letters.size());
-    for (const Word& word : words) {
+    for (const RecordedWord& word : words) {
       const auto found = std::ranges::find(letters, word.letter);
       if (found == letters.end()) {
         out.wrong.push_back({"", i + 1, 0,

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/probing_program.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "base/counted.hpp"
+#include "cli/options.hpp"
+#include "format/file.hpp"
+#include "nc/probing/files/probing_limits_toml.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+nc::ProbingControl control_of(const std::string&) { return nc::ProbingControl::linuxcnc; }
+
+/// A control takes letters, digits, '_' and '-' in the name of a log.
+std::string log_name(const std::string& output) {
+  if (output == "-") return "probe";
+  std::string name = std::filesystem::path(output).stem().string();
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  return name;
+}
+
+}  // namespace
+
+void ProbingOption::add_limits_to(CLI::App& command) {
+  command.add_option("--limits", limits_file_, "what the program must keep to (TOML)")
+      ->type_name("FILE");
+  command.add_flag("--air-run", dry_run_,
+                   "a dry run: the program keeps off the part and logs nothing");
+}
+
+void ProbingOption::add_to(CLI::App& command) {
+  add_option(command, "--program", control, one_of({"linuxcnc"}),
+             "control whose probing program is written");
+  add_limits_to(command);
+}
+
+void ProbingOption::read(Outputs& outputs) {
+  if (!asked()) {
+    if (!limits_file_.empty() || dry_run_) throw CLI::RequiredError("--program");
+    return;
+  }
+  if (limits_file_.empty()) throw CLI::RequiredError("--limits");
+  outputs.reads(limits_file_);
+  limits_ = parse_probing_limits(read_file(limits_file_), limits_file_);
+}
+
+nc::ProbingProgram ProbingOption::write(nc::ProbingPlan plan, const std::string& output) const {
+  return nc::write_probing(plan, limits_, control_of(control), log_name(output), dry_run_,
+                           limits_file_);
+}
+
+std::string ProbingOption::line(const nc::ProbingProgram& program, const std::string& output) {
+  if (output == "-") return "";
+  return fmt::format("{}  ({}, about {:.1f} min)\n", output, counted(program.readings, "reading"),
+                     program.minutes);
+}
+
+}  // namespace trueaxis::cli

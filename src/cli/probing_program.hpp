@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "cli/results.hpp"
+#include "format/outputs.hpp"
+#include "nc/probing/probing.hpp"
+
+namespace trueaxis::cli {
+
+/// `--program`, `--limits`, `--air-run`: the plan as a program of a control.
+class ProbingOption {
+ public:
+  /// `--output` is where it goes.
+  void add_to(CLI::App& command);
+  /// The rest without `--program`, for a command in which that word means another program too.
+  void add_limits_to(CLI::App& command);
+  std::string control;
+
+  bool asked() const { return !control.empty(); }
+  /// Names what is read. @throws InputError with all that is wrong with the limits
+  void read(Outputs& outputs);
+  /// @throws InputError with every reason why the plan cannot be driven
+  nc::ProbingProgram write(nc::ProbingPlan plan, const std::string& output) const;
+  /// A line of the screen: where the program went, and what it takes.
+  static std::string line(const nc::ProbingProgram& program, const std::string& output);
+
+ private:
+  std::string limits_file_;
+  bool dry_run_ = false;
+  nc::ProbingLimits limits_;
+};
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nc/probing/probing.hpp"
+
+namespace trueaxis::nc {
+
+/// Touch points of a pass: each moves from clear X to at most `stop` and back.
+struct TouchRun {
+  int pass = 1;
+  bool rear = false;
+  std::size_t count = 0;
+  double c_deg = 0.0, c_step_deg = 0.0;  ///< of the first, and from one to the next
+  double z_mm = 0.0, z_step_mm = 0.0;
+  double stop_mm = 0.0, stop_step_mm = 0.0;  ///< X, signed; of a dry run where it turns back
+};
+
+/// A place on a pass that is read while the spindle turns.
+struct ScanPoint {
+  double c_deg = 0.0;  ///< from the start of the run-in
+  double x_mm = 0.0, z_mm = 0.0;
+};
+
+/// A pass that is read without stop: run-in, readings, run-out.
+struct ScanRun {
+  int pass = 1;
+  double rpm = 0.0;      ///< 0: at standstill
+  double seconds = 0.0;  ///< of a standing capture
+  ScanPoint begin, first, last, end;
+};
+
+/// The lines of the log before its rows; import knows them.
+std::vector<std::string> log_head(const ProbingPlan& plan, const ProbingLimits& limits);
+inline constexpr std::string_view log_end = "END";
+/// In which set-up of the log a pass is: 2 on the rear side.
+int set_up_of(const ProbingPass& pass);
+
+/// A control's words. Positions are absolute, mm and degrees, X a radius.
+class Dialect {
+ public:
+  Dialect(const ProbingLimits& limits, std::string name, bool dry_run)
+      : limits_(limits), name_(std::move(name)), dry_run_(dry_run) {}
+  virtual ~Dialect() = default;
+  virtual void begin(const std::vector<std::string>& remarks,
+                     const std::vector<std::string>& log) = 0;
+  virtual void remark(const std::string& words) = 0;
+  virtual void rapid_x(double x_mm) = 0;
+  virtual void rapid_z(double z_mm) = 0;
+  virtual void touch(const TouchRun& run) = 0;
+  virtual void scan(const ScanRun&) {}
+  virtual void end() = 0;
+  const std::string& text() const { return text_; }
+
+ protected:
+  void line(const std::string& words) { text_ += words + '\n'; }
+  const ProbingLimits& limits_;
+  std::string name_;
+  bool dry_run_;
+  std::string text_;
+};
+
+std::unique_ptr<Dialect> linuxcnc_dialect(const ProbingLimits& limits, const std::string& name,
+                                          bool dry_run);
+
+/// A number of at most `decimals` digits after the point, without those that are 0.
+std::string short_number(double value, int decimals);
+
+}  // namespace trueaxis::nc

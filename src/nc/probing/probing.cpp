@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nc/probing/probing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "nc/number_text.hpp"
+#include "nc/probing/dialect.hpp"
+#include "nc/probing/refusals.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::nc {
+namespace {
+
+constexpr double seconds_beside = 1.5;  // of a touch: rapid moves and indexing, about
+
+TouchRun touch_run(const ProbingPlan& plan, const ProbingPass& pass, int number,
+                   const ProbingLimits& limits, bool dry_run) {
+  TouchRun run;
+  run.pass = number, run.rear = pass.rear, run.count = pass.readings;
+  const double steps = static_cast<double>(std::max<std::size_t>(pass.readings, 2) - 1);
+  run.c_deg = pass.c_rad / rad_per_deg, run.c_step_deg = 360.0 * pass.turns / steps;
+  run.z_mm = pass.start_mm, run.z_step_mm = (pass.end_mm - pass.start_mm) / steps;
+  const double side = pass.rear ? -1.0 : 1.0;
+  run.stop_mm = dry_run
+                    ? side * (limits.clear_x_mm() - 0.5 * limits.clearance_mm)
+                    : side * (plan.radius_at(run.z_mm) + limits.ball_radius_mm - limits.search_mm);
+  run.stop_step_mm = dry_run ? 0.0 : side * plan.slope * run.z_step_mm;
+  return run;
+}
+
+ScanRun scan_run(const ProbingPlan& plan, const ProbingPass& pass, int number,
+                 const ProbingLimits& limits, bool dry_run) {
+  ScanRun run;
+  run.pass = number, run.rpm = std::abs(pass.rpm()), run.seconds = pass.seconds;
+  const double before = run_in(pass, limits);
+  const auto at = [&](double share) {
+    const double z = pass.start_mm + share * (pass.end_mm - pass.start_mm);
+    const double x = dry_run ? limits.clear_x_mm() - 0.5 * limits.clearance_mm
+                             : plan.radius_at(z) + limits.ball_radius_mm;
+    return ScanPoint{360.0 * pass.turns * (share + before), pass.rear ? -x : x, z};
+  };
+  run.begin = at(-before), run.first = at(0.0), run.last = at(1.0), run.end = at(1.0 + before);
+  return run;
+}
+
+double seconds_of(const ProbingPass& pass, const ProbingPlan& plan, const ProbingLimits& limits) {
+  if (limits.kind == ProbeKind::analogue) return pass.seconds;
+  const double way = limits.clear_x_mm() - plan.radius_at(pass.start_mm) - limits.ball_radius_mm;
+  return static_cast<double>(pass.readings) * (way / limits.feed_mm_per_s + seconds_beside);
+}
+
+std::string described(const ProbingPass& pass, int number, ProbeKind kind) {
+  std::string text =
+      fmt::format("pass {}: Z {} to {} mm, {} turns", number, short_number(pass.start_mm, 3),
+                  short_number(pass.end_mm, 3), short_number(pass.turns, 2));
+  if (kind == ProbeKind::analogue)
+    text += fmt::format(" at {} rpm", short_number(std::abs(pass.rpm()), 1));
+  return text + fmt::format(", {} readings{}", pass.readings, pass.rear ? ", rear side" : "");
+}
+
+}  // namespace
+
+std::string short_number(double value, int decimals) {
+  std::string text;
+  append_number(text, rounded(value, decimals), decimals);
+  if (decimals > 0) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+  }
+  return text;
+}
+
+int set_up_of(const ProbingPass& pass) { return pass.rear ? 2 : 1; }
+
+std::vector<std::string> log_head(const ProbingPlan& plan, const ProbingLimits& limits) {
+  const bool touch = limits.kind == ProbeKind::touch;
+  std::vector<std::string> lines{"TRUEAXIS PROBE LOG 1", touch ? "ROWS TOUCH" : "ROWS SAMPLES",
+                                 "UNIT MM", limits.x_diameter ? "X DIAMETER" : "X RADIUS",
+                                 "BALL NM " + short_number(1e6 * limits.ball_radius_mm, 0)};
+  if (!touch) lines.push_back("PERIOD NS " + short_number(1e9 / limits.rate_hz, 0));
+  for (std::size_t k = 0; k < plan.passes.size(); ++k) {
+    const ProbingPass& pass = plan.passes[k];
+    const double taken = limits.rate_hz * pass.seconds / static_cast<double>(pass.readings);
+    lines.push_back(fmt::format("PASS {} SETUP {} {} {} {}", k + 1, set_up_of(pass),
+                                pass.rear ? "REAR" : "FRONT", touch ? "COUNT" : "EVERY",
+                                touch ? pass.readings : static_cast<std::size_t>(taken)));
+  }
+  lines.emplace_back("START");
+  return lines;
+}
+
+ProbingProgram write_probing(const ProbingPlan& plan, const ProbingLimits& limits,
+                             ProbingControl control, const std::string& name, bool dry_run,
+                             const std::string& file) {
+  expect_drivable(plan, limits, control, file);
+  ProbingProgram out;
+  for (const ProbingPass& pass : plan.passes) {
+    out.readings += pass.readings;
+    out.minutes += seconds_of(pass, plan, limits) / 60.0;
+  }
+  const std::unique_ptr<Dialect> words = linuxcnc_dialect(limits, name, dry_run);
+  const bool touch = limits.kind == ProbeKind::touch;
+  std::vector<std::string> remarks{plan.what,
+                                   fmt::format("{} {}, about {:.1f} min", out.readings,
+                                               touch ? "touch points" : "readings", out.minutes)};
+  if (dry_run) remarks.emplace_back("dry run: the probe stays off the part and nothing is logged");
+  words->begin(remarks, log_head(plan, limits));
+  const double clear_x = limits.clear_x_mm();
+  bool rear = false;
+  words->rapid_x(clear_x);
+  for (std::size_t k = 0; k < plan.passes.size(); ++k) {
+    const ProbingPass& pass = plan.passes[k];
+    const int number = static_cast<int>(k + 1);
+    words->remark(described(pass, number, limits.kind));
+    if (pass.rear != rear) {  // around the free end of the part
+      words->rapid_z(limits.clear_z_mm());
+      rear = pass.rear;
+      words->rapid_x(rear ? -clear_x : clear_x);
+    }
+    if (touch)
+      words->touch(touch_run(plan, pass, number, limits, dry_run));
+    else
+      words->scan(scan_run(plan, pass, number, limits, dry_run));
+    words->rapid_x(rear ? -clear_x : clear_x);
+  }
+  words->rapid_z(limits.clear_z_mm());
+  words->end();
+  out.text = words->text();
+  return out;
+}
+
+}  // namespace trueaxis::nc

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program that measures a plan, as LinuxCNC's own interpreter reads it, and its log.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+#include "support/command_fixture.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+constexpr double reach = 34.0, front = 5.0, ball = 1.0, clearance = 3.0, search = 1.5;
+
+std::string limits(const std::string& probe) {
+  return "[limits]\nx_mm = [-80, 120]\nz_mm = [-60, 80]\nspeed_rpm = 400\n"
+         "[part]\nreach_mm = 34\nfront_mm = 5\n"
+         "[probe]\nball_radius_mm = 1\nfeed_mm_per_min = 150\nclearance_mm = 3\n" +
+         probe;
+}
+const std::string touch = "kind = \"touch\"\nsearch_mm = 1.5\n";
+const std::string analogue = "kind = \"analogue\"\nrate_hz = 1000\nspin_up_s = 0.2\n";
+
+/// A cone of 30 mm at Z 0, out at the front and back at the rear side.
+const std::string both_sides =
+    "[part]\nsurface = \"cone\"\nradius_mm = 30\nhalf_angle_deg = 3\n[noise]\nsigma_um = 1\n"
+    "[[pass]]\nz_start_mm = -30\nz_end_mm = -10\nfeed_mm_per_rev = 10\n"
+    "readings_per_revolution = 12\n"
+    "[[pass]]\nz_start_mm = -10\nz_end_mm = -30\nfeed_mm_per_rev = 10\n"
+    "readings_per_revolution = 12\nsetup = 2\n[[setup]]\nnumber = 2\nside = \"rear\"\n";
+const std::string two_speeds =
+    "[part]\nsurface = \"cylinder\"\nradius_mm = 30\n[noise]\nsigma_um = 1\n"
+    "[[pass]]\nz_start_mm = -30\nz_end_mm = -10\nfeed_mm_per_rev = 1\n"
+    "readings_per_revolution = 40.3\nspeed_rpm = 120\n"
+    "[[pass]]\nz_start_mm = -10\nz_end_mm = -30\nfeed_mm_per_rev = 1\n"
+    "readings_per_revolution = 40.3\nspeed_rpm = -302\n"
+    "[[pass]]\nz_mm = -20\nspeed_rpm = 0\nduration_s = 5\nrate_hz = 200\n";
+
+struct Call {
+  std::string name;
+  double x = 0.0, z = 0.0, c = 0.0;
+  double feed = 0.0;    ///< in force
+  std::string words{};  ///< of a LOG
+};
+
+class ProbingProgram : public CommandTest {
+ protected:
+  bool has_interpreter() { return shell("command -v rs274").exit_code == 0; }
+
+  CommandStreams plan(const std::string& scenario, const std::string& probe,
+                      const std::string& options = "") {
+    file("plan.toml", scenario);
+    file("limits.toml", limits(probe));
+    return command(
+        "study plan plan.toml --goal-um 5 --repeats 100 --program linuxcnc "
+        "--limits limits.toml -o p.ngc " +
+        options);
+  }
+
+  /// The calls of the interpreter, from a place clear of the part.
+  std::vector<Call> calls() {
+    file("from.ngc", "G21 G0 X100 Z60\n" + read_text(folder_ / "p.ngc"));
+    const auto done = shell("cd " + shell_word(folder_) + " && rs274 -g from.ngc");
+    EXPECT_EQ(done.exit_code, 0) << done.output;
+    const std::regex move(
+        R"(.*(STRAIGHT_[A-Z]+)\(([-\d.]+), [-\d.]+, ([-\d.]+), [-\d.]+, [-\d.]+, ([-\d.]+)\))");
+    const std::regex rate(R"(.*SET_FEED_RATE\(([\d.]+)\))"), log(R"x(.* LOG\("(.*)"\))x");
+    std::vector<Call> out;
+    std::istringstream lines(done.output);
+    std::smatch found;
+    double feed = 0.0;
+    for (std::string line; std::getline(lines, line);) {
+      if (std::regex_match(line, found, rate)) feed = std::stod(found[1]);
+      if (std::regex_match(line, found, move))
+        out.push_back(
+            {found[1], std::stod(found[2]), std::stod(found[3]), std::stod(found[4]), feed});
+      else if (std::regex_match(line, found, log))
+        out.push_back({"LOG", 0.0, 0.0, 0.0, feed, found[1]});
+    }
+    return out;
+  }
+
+  static std::size_t count(const std::vector<Call>& all, const std::string& name) {
+    return static_cast<std::size_t>(
+        std::ranges::count(all, name, [](const Call& one) { return one.name; }));
+  }
+
+  /// Rapid moves keep their clearance, also on the way from the front to the rear side.
+  static void expect_clear(const std::vector<Call>& all) {
+    Call before{"", 100.0, 60.0};
+    for (const Call& one : all) {
+      if (one.name == "LOG") continue;
+      if (one.name == "STRAIGHT_TRAVERSE") {
+        const bool beside =
+            std::min(std::abs(one.x), std::abs(before.x)) >= reach + ball + clearance - 1e-3 &&
+            one.x * before.x > 0.0;
+        const bool before_part = std::min(one.z, before.z) >= front + ball + clearance - 1e-3;
+        const bool back = one.z == before.z && std::abs(one.x) > std::abs(before.x) &&
+                          one.x * before.x > 0.0;  // away from the part
+        EXPECT_TRUE(beside || before_part || back)
+            << before.x << ' ' << before.z << " to " << one.x << ' ' << one.z;
+      }
+      before = one;
+    }
+  }
+};
+
+TEST_F(ProbingProgram, TouchesEveryPointOfThePlanAtItsFeed) {
+  if (!has_interpreter()) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  const CommandStreams done = plan(both_sides, touch);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(contains(done.out, "p.ngc  (50 readings")) << done.out;
+  const std::vector<Call> all = calls();
+  expect_clear(all);
+  EXPECT_EQ(count(all, "STRAIGHT_PROBE"), 50u);
+  EXPECT_EQ(count(all, "STRAIGHT_FEED"), 0u);
+  std::size_t k = 0;
+  for (const Call& one : all) {
+    if (one.name != "STRAIGHT_PROBE") continue;
+    const bool rear = k >= 25;
+    const double i = static_cast<double>(k % 25);
+    const double z = rear ? -10.0 - i * 20.0 / 24.0 : -30.0 + i * 20.0 / 24.0;
+    const double to = 30.0 + std::tan(3.0 * std::numbers::pi / 180.0) * z + ball - search;
+    EXPECT_NEAR(one.z, z, 1e-4);                                // four digits are printed
+    EXPECT_NEAR(one.c, 30.0 * i + (rear ? 720.0 : 0.0), 1e-4);  // from the turn in which C is
+    EXPECT_NEAR(one.x, rear ? -to : to, 1.5e-4);
+    EXPECT_EQ(one.feed, 150.0);
+    ++k;
+  }
+  EXPECT_EQ(all.back().name, "LOG");
+  EXPECT_EQ(all.back().words, "END");
+}
+
+// What the control logs is read without an option: unit, radius, ball and side are in its head.
+TEST_F(ProbingProgram, ImportReadsItsLogWithoutAnOption) {
+  if (!has_interpreter()) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  ASSERT_EQ(plan(both_sides, touch).exit_code, 0);
+  std::string log;
+  for (const Call& one : calls())
+    if (one.name == "LOG") log += one.words + '\n';
+  file("p.log", log);
+  const CommandStreams done = command("import p.log -o s.csv --json i.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const std::string stream = read_text(folder_ / "s.csv");
+  for (const char* line : {"# x_convention: radius\n", "# ball_radius: 1 mm\n",
+                           "# setup.2.side: rear\n", "X_M[mm],C[deg],Z[mm],pass,setup\n"})
+    EXPECT_TRUE(contains(stream, line)) << stream;
+  EXPECT_EQ(result("i.json")["readings"], 50);
+  // A log that was cut off is not a measurement.
+  file("cut.log", log.substr(0, log.size() - 60));
+  expect_input_error("import cut.log -o cut.csv", "the log ends before its program did");
+}
+
+TEST_F(ProbingProgram, ScansWhileTheSpindleTurns) {
+  if (!has_interpreter()) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  const CommandStreams done = plan(two_speeds, analogue);
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const std::vector<Call> all = calls();
+  expect_clear(all);
+  EXPECT_EQ(count(all, "STRAIGHT_PROBE"), 0u);
+  // Approach, run-in, readings and run-out of two passes, the approach of the standing capture.
+  std::vector<Call> feeds;
+  for (const Call& one : all)
+    if (one.name == "STRAIGHT_FEED") feeds.push_back(one);
+  ASSERT_EQ(feeds.size(), 9u);
+  for (const std::size_t approach : {0u, 4u, 8u}) {
+    EXPECT_NEAR(feeds[approach].x, 30.0 + ball, 1e-4);
+    EXPECT_EQ(feeds[approach].feed, 150.0);
+  }
+  const double rpm[] = {120.0, 302.0}, sign[] = {1.0, -1.0};
+  for (std::size_t pass = 0; pass < 2; ++pass) {
+    const Call &first = feeds[4 * pass + 1], &last = feeds[4 * pass + 2];
+    EXPECT_NEAR(last.c - first.c, sign[pass] * 20.0 * 360.0, 1e-3);
+    // The interpreter makes mm/min along Z of the time of a block; it prints four digits.
+    EXPECT_NEAR(last.feed * 20.0 / std::abs(last.z - first.z), rpm[pass], 2e-4);
+    EXPECT_NEAR(std::abs(last.z - first.z), 20.0, 1e-4);
+  }
+}
+
+TEST_F(ProbingProgram, AnAirRunTouchesNothing) {
+  if (!has_interpreter()) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  for (const auto& [scenario, probe] : {std::pair{both_sides, touch}, {two_speeds, analogue}}) {
+    ASSERT_EQ(plan(scenario, probe, "--air-run --force").exit_code, 0);
+    const std::vector<Call> all = calls();
+    expect_clear(all);
+    EXPECT_EQ(count(all, "STRAIGHT_PROBE") + count(all, "LOG"), 0u);
+    EXPECT_GT(count(all, "STRAIGHT_FEED"), 2u);
+    for (const Call& one : all)
+      EXPECT_TRUE(std::abs(one.x) > reach + ball || one.z > front + ball) << one.x << ' ' << one.z;
+  }
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
