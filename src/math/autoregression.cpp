@@ -16,6 +16,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 constexpr double five_percent = 3.84;
+constexpr std::size_t highest_order = 6;  // below longest_run of a mask
 // Share of a column's square by which columns that nearly depend are told apart: without it a
 // likelihood that could not be worked out was one of white noise.
 constexpr double rounding = 1e-12;
@@ -39,7 +40,8 @@ std::vector<Eigen::Index> independent(const Matrix& gram) {
 class Likelihood {
  public:
   explicit Likelihood(const LaggedGram& gram)
-      : columns_(independent(gram.at(0, 0))),
+      : all_columns_(gram.at(0, 0).rows() - 1),
+        columns_(independent(gram.at(0, 0))),
         rows_(gram.rows()),
         first_rows_(gram.first_rows()),
         second_rows_(gram.second_rows()),
@@ -49,16 +51,17 @@ class Likelihood {
   double restricted2(double phi1, double phi2) {
     const auto r = regression(phi1, phi2);
     if (!r) return -1e300;
-    const RunStart start(phi1, phi2);
-    return -freedom() * std::log(r->rss) - r->logdet + 2.0 * first_rows_ * std::log(start.first) +
-           2.0 * second_rows_ * std::log(start.second);
+    const RunStart start({phi1, phi2});
+    return -freedom() * std::log(r->rss) - r->logdet +
+           2.0 * first_rows_ * std::log(start.scale(0)) +
+           2.0 * second_rows_ * std::log(start.scale(1));
   }
 
   /// The noise and its residual.
   Autoregression with_remainder(std::vector<double> phi) {
     const auto r = regression(phi.empty() ? 0.0 : phi[0], phi.size() < 2 ? 0.0 : phi[1]);
-    if (!r) return {std::move(phi)};
-    return {std::move(phi), r->rss, freedom()};
+    if (!r) return {std::move(phi), 0.0, 0.0, {}};
+    return {std::move(phi), r->rss, freedom(), coefficients()};
   }
 
  private:
@@ -74,8 +77,21 @@ class Likelihood {
     for (std::size_t j = 0; j < columns_.size(); ++j) out.logdet += 2.0 * std::log(gram(j, j));
     return out;
   }
+  /// Those of the regression that was made last, from its Cholesky factor.
+  Eigen::VectorXd coefficients() {
+    const LowerTriangle& factor = whitened_.made();
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(all_columns_);
+    for (std::size_t j = columns_.size(); j-- > 0;) {
+      double sum = factor(columns_.size(), j);
+      for (std::size_t i = j + 1; i < columns_.size(); ++i)
+        sum -= factor(i, j) * out(columns_[i] - 1);
+      out(columns_[j] - 1) = sum / factor(j, j);
+    }
+    return out;
+  }
   double freedom() const { return rows_ - static_cast<double>(columns_.size()); }
 
+  Eigen::Index all_columns_;
   std::vector<Eigen::Index> columns_;
   double rows_, first_rows_, second_rows_;
   WhitenedGram whitened_;
@@ -217,11 +233,11 @@ WhitenedGram::WhitenedGram(const LaggedGram& gram, std::vector<Eigen::Index> col
 }
 
 LowerTriangle& WhitenedGram::by(double phi1, double phi2) {
-  const RunStart start(phi1, phi2);
+  const RunStart start({phi1, phi2});
   const std::array<std::array<double, 3>, 3> weight{
       {{1.0, -phi1, -phi2},
-       {start.first, 0.0, 0.0},
-       {start.second, -start.second * start.partial, 0.0}}};
+       {start.scale(0), 0.0, 0.0},
+       {start.scale(1), -start.scale(1) * start.phi(1)[0], 0.0}}};
   std::vector<LowerTriangle::Part> sum;
   for (const Part& part : parts_) {
     const std::array<double, 3>& of = weight[static_cast<std::size_t>(part.rows)];
@@ -232,9 +248,34 @@ LowerTriangle& WhitenedGram::by(double phi1, double phi2) {
   return whitened_;
 }
 
-RunStart::RunStart(double phi1, double phi2)
-    : second(std::sqrt(1.0 - phi2 * phi2)), partial(phi1 / (1.0 - phi2)) {
-  first = second * std::sqrt(1.0 - partial * partial);
+/// Levinson's recursion down: that of every lower order is the best predictor of its order.
+RunStart::RunStart(const std::vector<double>& phi)
+    : scale_(phi.size() + 1, 1.0), phi_(phi.size() + 1) {
+  phi_.back() = phi;
+  for (std::size_t k = phi.size(); k-- > 0;) {
+    const std::vector<double>& above = phi_[k + 1];
+    const double partial = above[k], left = 1.0 - partial * partial;
+    for (std::size_t j = 0; j < k; ++j)
+      phi_[k].push_back((above[j] + partial * above[k - 1 - j]) / left);
+    scale_[k] = scale_[k + 1] * std::sqrt(left);
+  }
+}
+
+std::vector<double> partial_correlations(const std::vector<double>& phi) {
+  const RunStart lower(phi);
+  std::vector<double> out;
+  for (std::size_t k = 1; k <= phi.size(); ++k) out.push_back(lower.phi(k).back());
+  return out;
+}
+
+std::vector<double> phi_of(const std::vector<double>& partial_correlations) {
+  std::vector<double> phi;
+  for (const double partial : partial_correlations) {
+    const std::vector<double> below = phi;
+    for (std::size_t j = 0; j < phi.size(); ++j) phi[j] -= partial * below[phi.size() - 1 - j];
+    phi.push_back(partial);
+  }
+  return phi;
 }
 
 Autoregression find_autoregression(const LaggedGram& gram,
@@ -256,22 +297,59 @@ Autoregression find_autoregression(const LaggedGram& gram,
   return of.with_remainder({});
 }
 
+Autoregression with_higher_orders(Autoregression second,
+                                  std::span<const std::vector<double>> residual_runs) {
+  struct Lattice {
+    std::vector<double> forward, backward;  ///< errors of either prediction
+  };
+  std::vector<Lattice> runs;
+  for (const std::vector<double>& run : residual_runs) runs.push_back({run, run});
+  const auto raise = [&](double partial) {
+    for (Lattice& run : runs)
+      for (std::size_t i = run.forward.size(); i-- > 0;) {
+        const double before = i > 0 ? run.backward[i - 1] : 0.0;
+        run.backward[i] = before - partial * run.forward[i];
+        run.forward[i] -= partial * before;
+      }
+  };
+  std::vector<double> partials = partial_correlations(second.phi);
+  for (const double partial : partials) raise(partial);
+  while (partials.size() < highest_order) {
+    double both = 0.0, squares = 0.0, count = 0.0;
+    for (const Lattice& run : runs)
+      for (std::size_t i = partials.size() + 1; i < run.forward.size(); ++i) {
+        const double ahead = run.forward[i], behind = run.backward[i - 1];
+        both += 2.0 * ahead * behind, squares += ahead * ahead + behind * behind, ++count;
+      }
+    const double partial = squares > 0.0 ? both / squares : 0.0;
+    const double left = 1.0 - partial * partial;
+    if (!(-count * std::log(left) > five_percent)) break;
+    partials.push_back(partial);
+    second.rss *= left;
+    raise(partial);
+  }
+  second.phi = phi_of(partials);
+  return second;
+}
+
 bool rings_with_spindle(double phi1, double phi2, std::span<const double> c_rad) {
   constexpr double lasting = 0.8, off_order = 0.1;  // radius of the poles; of an order
-  if (phi1 * phi1 + 4.0 * phi2 >= 0.0 || std::sqrt(-phi2) < lasting) return false;
+  constexpr double widest = 4.0;                    // orders: 0.8 at 110 readings per revolution
+  const double radius = std::sqrt(-phi2);
+  if (phi1 * phi1 + 4.0 * phi2 >= 0.0 || radius < lasting) return false;
   std::vector<double> step_rad;
   for (std::size_t i = 1; i < c_rad.size(); ++i) {
     const double step = std::abs(c_rad[i] - c_rad[i - 1]);
     if (step > 0.0 && step < std::numbers::pi) step_rad.push_back(step);
   }
   if (step_rad.empty()) return false;
-  const double order = std::acos(0.5 * phi1 / std::sqrt(-phi2)) / median(step_rad);
+  const double step = median(step_rad), order = std::acos(0.5 * phi1 / radius) / step;
+  if (-std::log(radius) / step > widest) return false;
   return std::round(order) >= 1.0 && std::abs(order - std::round(order)) < off_order;
 }
 
 double variance_over_innovation(const std::vector<double>& phi) {
-  const double phi1 = phi.empty() ? 0.0 : phi[0], phi2 = phi.size() < 2 ? 0.0 : phi[1];
-  return (1.0 - phi2) / ((1.0 + phi2) * ((1.0 - phi2) * (1.0 - phi2) - phi1 * phi1));
+  return 1.0 / std::pow(RunStart(phi).scale(0), 2);
 }
 
 }  // namespace trueaxis

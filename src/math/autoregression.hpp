@@ -4,6 +4,7 @@
 #include <hwy/aligned_allocator.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -19,6 +20,7 @@ struct Autoregression {
   std::vector<double> phi;
   double rss = 0.0;      ///< of the residuals, whitened; 0: there were too few readings to tell
   double freedom = 0.0;  ///< of it: readings beyond the columns
+  Eigen::VectorXd coefficients;  ///< of the columns of the model, 0 if one depends on others
 };
 
 /// Columns of some rows, and of those one and more before each of them: aligned and padded as of a
@@ -92,6 +94,8 @@ class WhitenedGram {
   /// Those of ε_i − φ₁ ε_{i−1} − φ₂ ε_{i−2}, of the first readings of runs as RunStart has them;
   /// the caller may change them.
   LowerTriangle& by(double phi1, double phi2);
+  /// Those made last, as the caller changed them.
+  const LowerTriangle& made() const { return whitened_; }
 
  private:
   enum class Of { later, first, second };  ///< readings of a run
@@ -110,22 +114,39 @@ class WhitenedGram {
 Autoregression find_autoregression(const LaggedGram& gram,
                                    const std::function<bool(double, double)>& is_form);
 
+/// The partial correlations a₁, a₂ … of φ, the φ of its partial correlations (Levinson): any below
+/// 1 are those of a stationary process, and a₁ is the correlation of neighbours.
+std::vector<double> partial_correlations(const std::vector<double>& phi);
+std::vector<double> phi_of(const std::vector<double>& partial_correlations);
+
+/// Goes on from an autoregression of the second order to higher ones, by Burg's lattice over runs
+/// of residuals: each order only if its likelihood ratio passes 5 % (Eq. 65a).
+Autoregression with_higher_orders(Autoregression second,
+                                  std::span<const std::vector<double>> residual_runs);
+
 /// Whether an autoregression of the second order rings with the spindle, whose angles at the
 /// readings are given: nothing random does, but what turns with it and is not explained looks so.
+/// A hump of the spectrum that is many orders wide does not.
 bool rings_with_spindle(double phi1, double phi2, std::span<const double> c_rad);
 
 /// How the first readings of a run are whitened, so that a run is as likely as all of its readings
-/// are: e₀ = g₀ ε₀, e₁ = g₁ (ε₁ − a ε₀), of the same variance as every innovation after them.
-/// Without them what differs from run to run, such as the sides of a delay, would be free (Prais
-/// and Winsten 1954, Eq. 66b).
-struct RunStart {
-  explicit RunStart(double phi1, double phi2 = 0.0);
-  explicit RunStart(const std::vector<double>& phi)
-      : RunStart(phi.empty() ? 0.0 : phi[0], phi.size() < 2 ? 0.0 : phi[1]) {}
-  double first, second, partial;  ///< g₀, g₁, a
+/// are: e_k = g_k (ε_k − Σ_j a_kj ε_{k−j}), predicted from the k before it and of the same variance
+/// as every innovation after them. Without them what differs from run to run, such as the sides of
+/// a delay, would be free (Prais and Winsten 1954, Eq. 66b).
+class RunStart {
+ public:
+  explicit RunStart(const std::vector<double>& phi);
+  /// g_k of the reading k of a run; from the order on 1.
+  double scale(std::size_t k) const { return scale_[std::min(k, scale_.size() - 1)]; }
+  /// a_k1, a_k2 …
+  const std::vector<double>& phi(std::size_t k) const { return phi_[std::min(k, phi_.size() - 1)]; }
+
+ private:
+  std::vector<double> scale_;
+  std::vector<std::vector<double>> phi_;
 };
 
-/// Variance of one reading over that of the innovation e, of order 0, 1 or 2.
+/// Variance of one reading over that of the innovation e.
 double variance_over_innovation(const std::vector<double>& phi);
 
 }  // namespace trueaxis

@@ -56,6 +56,18 @@ TEST_P(DiagnosedSlip, IsNoNoiseHoweverLarge) {
   }
 }
 
+// The readings right at a step are predicted across it, and one large innovation of the noise looks
+// the same there. A slip also shows in what follows: 240 readings a side with ρ = 0.8 tell as much
+// as 27 independent ones, so that a step of 5 σ is one of 18 standard errors.
+TEST(SlipInCorrelatedNoise, ShowsInTheLevel) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Scenario scenario = turned_cylinder();
+    scenario.seed = seed, scenario.noise.rho = 0.8;
+    scenario.effects = {{"part.slip", {{"time_s", 12.0}, {"dx_mm", 0.01}}}};
+    EXPECT_TRUE(has_slip(diagnosed(simulate(scenario)))) << "seed " << seed;
+  }
+}
+
 // Two sizes of a step explain two readings of any errors: chips at the first or the last readings
 // were a slip, and the axis went with it. 7 σ are below what is masked as an outlier by itself.
 TEST(SlipAtAnEnd, IsNotMadeOfOutliersAtAnEnd) {

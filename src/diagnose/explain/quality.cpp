@@ -10,6 +10,7 @@
 #include "base/counted.hpp"
 #include "diagnose/search/causes.hpp"
 #include "fit/uncertainty.hpp"
+#include "math/autoregression.hpp"
 #include "math/statistics.hpp"
 #include "measure/column_checks.hpp"
 #include "trueaxis/units.hpp"
@@ -18,20 +19,6 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t enough = 20;
-
-/// Variance of an AR process over that of its innovations, by its impulse response (Eq. 68).
-double gain_of(const std::vector<double>& phi) {
-  std::vector<double> response{1.0};
-  double sum = 1.0;
-  for (std::size_t k = 1; k < 4000; ++k) {
-    double next = 0.0;
-    for (std::size_t j = 1; j <= phi.size() && j <= k; ++j) next += phi[j - 1] * response[k - j];
-    response.push_back(next);
-    sum += next * next;
-    if (!(sum < 1e9)) break;
-  }
-  return sum;
-}
 
 std::optional<double> stationary_sigma(const LinearisationPoint& point, const ObservationMask& mask,
                                        const std::vector<double>& left) {
@@ -258,7 +245,7 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
   out.repeated_mm = repeated_sigma(point, mask, residual_mm);
   const double freedom =
       std::max(1.0, static_cast<double>(joint.equations.count() - joint.solution.rank));
-  const double residual = joint.sigma_mm * std::sqrt(gain_of(out.autoregression));
+  const double residual = joint.sigma_mm * std::sqrt(variance_over_innovation(out.autoregression));
   out.sigma_mm = residual;
   out.source = NoiseSource::extended_model;
   double independent = freedom;

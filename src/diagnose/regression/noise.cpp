@@ -162,6 +162,8 @@ NoiseEstimator::NoiseEstimator(const LinearisationPoint& point, const Observatio
                                std::span<const double> deviation_mm,
                                std::span<const Hypothesis> basis, int threads)
     : point_(&point),
+      deviation_mm_(deviation_mm),
+      basis_(basis.begin(), basis.end()),
       threads_(threads),
       stretches_(stretches_of(mask)),
       gram_(static_cast<Eigen::Index>(1 + point.base.columns() + columns_of(basis))) {
@@ -186,8 +188,36 @@ Autoregression NoiseEstimator::operator()(std::span<const Hypothesis> terms) con
     fill_rows(*point_, terms, s.begin, columns);
     gram.add_columns(rows_[k], s.rows_of(columns));
   }
-  return find_autoregression(
+  Autoregression out = find_autoregression(
       gram, [&](double phi1, double phi2) { return rings_with_spindle(phi1, phi2, point_->c); });
+  const auto columns = static_cast<double>(out.coefficients.size());
+  // Fewer readings, and what the columns take of the noise would look like more of its spectrum:
+  // columns/N of a correlation, whose standard error is 1/√N.
+  if (out.phi.size() < 2 || columns * columns > gram.rows()) return out;
+  const auto runs = residual_runs(terms, out.coefficients);
+  return with_higher_orders(std::move(out), runs);
+}
+
+std::vector<std::vector<double>> NoiseEstimator::residual_runs(
+    std::span<const Hypothesis> terms, const Eigen::VectorXd& coefficients) const {
+  std::vector<Hypothesis> all = basis_;
+  all.insert(all.end(), terms.begin(), terms.end());
+  std::vector<std::vector<double>> runs;
+  for (const Stretch& s : stretches_) {
+    const Matrix x = columns_of_rows(*point_, deviation_mm_, all, s.begin, s.end);
+    const Eigen::VectorXd left = x.col(0) - x.rightCols(x.cols() - 1) * coefficients;
+    std::vector<char> counts(static_cast<std::size_t>(left.size()), 0);
+    for (const auto* rows : {&s.first, &s.second, &s.later})
+      for (const Eigen::Index i : *rows)
+        counts[static_cast<std::size_t>(i)] = rows == &s.first ? 2 : 1;
+    bool goes_on = false;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] != 0 && (!goes_on || counts[i] == 2)) runs.emplace_back();
+      goes_on = counts[i] != 0;
+      if (goes_on) runs.back().push_back(left(static_cast<Eigen::Index>(i)));
+    }
+  }
+  return runs;
 }
 
 Autoregression autoregression(const LinearisationPoint& point, const ObservationMask& mask,

@@ -31,10 +31,11 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
 /// Autoregressions of the noise after base, basis and terms, whose products without the terms are
 /// made once. By restricted maximum likelihood (the columns are integrated out, so that fitting
 /// them does not hide correlation); order 0, 1 or 2, each one only where the likelihood ratio
-/// passes 5 %. Few readings: none (Eqs. 64, 65).
+/// passes 5 %. Few readings: none; so many that the columns do not matter: up to order 6 (Eqs. 64,
+/// 65, 65a).
 class NoiseEstimator {
  public:
-  /// @param point outlives this
+  /// @param point, deviation_mm outlive this
   NoiseEstimator(const LinearisationPoint& point, const ObservationMask& mask,
                  std::span<const double> deviation_mm, std::span<const Hypothesis> basis,
                  int threads = 1);
@@ -49,8 +50,13 @@ class NoiseEstimator {
     LaggedRows rows_of(const Eigen::MatrixXd& columns) const;
   };
   std::vector<Stretch> stretches_of(const ObservationMask& mask) const;
+  /// What the columns at these coefficients leave, in readings that follow each other.
+  std::vector<std::vector<double>> residual_runs(std::span<const Hypothesis> terms,
+                                                 const Eigen::VectorXd& coefficients) const;
 
   const LinearisationPoint* point_;
+  std::span<const double> deviation_mm_;
+  std::vector<Hypothesis> basis_;
   int threads_;
   std::vector<Stretch> stretches_;
   std::vector<LaggedRows> rows_;  ///< of the deviation, base and basis, stretch by stretch

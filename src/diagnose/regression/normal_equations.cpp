@@ -64,7 +64,7 @@ NormalEquations::NormalEquations(const LinearisationPoint& point, const Observat
     if (!mask.used[i]) continue;
     ++count_;
     if (mask.run[i] < autoregression_.size())
-      log_volume_ += 2.0 * std::log(mask.run[i] == 0 ? start.first : start.second);
+      log_volume_ += 2.0 * std::log(start.scale(mask.run[i]));
   }
   double sum = 0.0;
   for (std::size_t i = 0; i < point.size(); ++i)

@@ -35,10 +35,12 @@ void WhiteColumns::whiten(const std::vector<double>& phi, std::size_t lead, std:
 void WhiteColumns::begin_run(const std::vector<double>& phi, std::size_t lead, std::size_t row,
                              std::size_t run) {
   const RunStart start(phi);
+  const std::vector<double>& own = start.phi(run);
   for (std::size_t c = 0; c < raw_column_.size(); ++c) {
     const double* from = raw_column_[c] + lead + row;
-    white_column_[c][row] =
-        run == 0 ? start.first * from[0] : start.second * (from[0] - start.partial * from[-1]);
+    double value = from[0];
+    for (std::size_t j = 0; j < own.size(); ++j) value -= own[j] * from[-1 - static_cast<long>(j)];
+    white_column_[c][row] = start.scale(run) * value;
   }
 }
 

@@ -19,7 +19,7 @@ class WhiteColumns {
   std::span<double* const> raw() const { return raw_column_; }
   /// y_i − Σ φ_j y_{i−j} of `rows` rows, the first of them after `lead` others.
   void whiten(const std::vector<double>& phi, std::size_t lead, std::size_t rows);
-  /// A row that is the first or second of its run.
+  /// A row that comes `run` readings after the first of its run, fewer than the order.
   void begin_run(const std::vector<double>& phi, std::size_t lead, std::size_t row,
                  std::size_t run);
   /// A row that does not count.

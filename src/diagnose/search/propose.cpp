@@ -99,15 +99,15 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<Candidate>& list, std::s
 void average_over_noise(const Problem& problem, const std::vector<double>& phi, double freedom,
                         const std::vector<Hypothesis>& terms, std::vector<Candidate>& list) {
   if (phi.empty() || list.empty()) return;
-  const double second = phi.size() < 2 ? 0.0 : phi[1], first = phi[0] / (1.0 - second);
+  const std::vector<double> partials = partial_correlations(phi);
   const double away = std::sqrt(3.0 / std::max(freedom, 1.0));
   std::vector<double> p;
   for (const Candidate& c : list) p.push_back(std::exp(c.log_p) * 2.0 / 3.0);
   for (const double d : {-away, away}) {
-    std::vector<double> other = phi;
-    other[0] = std::tanh(std::atanh(first) + d) * (1.0 - second);
+    std::vector<double> other = partials;
+    other[0] = std::tanh(std::atanh(other[0]) + d);
     const std::vector<Candidate> judged =
-        Judge(problem, other, terms)(hypotheses_of(list, list.size()));
+        Judge(problem, phi_of(other), terms)(hypotheses_of(list, list.size()));
     for (std::size_t i = 0; i < list.size(); ++i) p[i] += std::exp(log_p_of(judged[i])) / 6.0;
   }
   for (std::size_t i = 0; i < list.size(); ++i) list[i].log_p = std::log(std::max(p[i], 1e-300));

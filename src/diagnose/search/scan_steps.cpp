@@ -71,6 +71,8 @@ struct Date {
   Square gram;
   Vector right, whole;  ///< products with the residuals; squares of the columns themselves
   Vector without;       ///< products without the two largest readings of a short side
+  Square settled_gram;  ///< without the readings at the step that are predicted across it
+  Vector settled_right;
 };
 
 /// The two readings that are farthest off on the shorter side of a step before the k-th.
@@ -121,7 +123,8 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
     }
     const Sums& sums = lags > 0 ? with_after : before;
     out.push_back({reading, sums.gram - sums.cross * sums.cross.transpose(), sums.right,
-                   sums.gram.diagonal(), sums.right});
+                   sums.gram.diagonal(), sums.right,
+                   before.gram - before.cross * before.cross.transpose(), before.right});
     if (std::min(k, size - k) > static_cast<Index>(few) * columns) continue;
     for (const Index row : two_largest(left, k))
       out.back().without -= left(row) * ((row < k ? 1.0 : 0.0) * step.row(row).transpose() -
@@ -131,9 +134,8 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
 }
 
 /// What the columns of a form take off the sum of squares.
-double gain_of(const std::vector<Index>& form, const Date& date, Vector along) {
+double gain_of(const std::vector<Index>& form, const Date& date, Square rest, Vector along) {
   double gain = 0.0;
-  Square rest = date.gram;
   for (const Index j : form) {  // a Cholesky step each
     if (!(rest(j, j) > absorbed * date.whole(j))) continue;
     gain += along(j) * along(j) / rest(j, j);
@@ -152,15 +154,18 @@ const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
   std::vector<double> gains;
   const std::size_t fewest = per_column * std::max<std::size_t>(form.size(), 2);
   for (const Date& date : dates) {
-    const double gain = gain_of(form, date, date.right);
+    const double gain = gain_of(form, date, date.gram, date.right);
     const std::size_t side = std::min(date.reading, size - date.reading);
     const bool of_outliers = side <= few * std::max<std::size_t>(form.size(), 2) &&
-                             gain_of(form, date, date.without) < kept * gain;
+                             gain_of(form, date, date.gram, date.without) < kept * gain;
     const bool of_few = side < fewest;
-    gains.push_back(of_outliers || of_few ? 0.0 : gain);
+    // In correlated noise one large innovation looks like a step, and dies out.
+    const bool passes = gain_of(form, date, date.settled_gram, date.settled_right) <
+                        std::min(gain, seen * std::max(rss - gain, 0.0) / freedom);
+    gains.push_back(of_outliers || of_few || passes ? 0.0 : gain);
   }
-  if (gains.empty()) return nullptr;
   const auto top = std::ranges::max_element(gains);
+  if (top == gains.end() || !(*top > 0.0)) return nullptr;
   const double variance = std::max(rss - *top, 0.0) / freedom;
   if (*top < seen * variance) return &dates[static_cast<std::size_t>(top - gains.begin())];
   const double near = *top - as_likely * variance;
