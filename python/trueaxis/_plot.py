@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import io
+import json
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._errors import TrueAxisError
+from ._figure import GREY as _GREY
+from ._figure import LINE as _LINE
+from ._figure import OTHER as _OTHER
+from ._figure import UM as _UM
+from ._figure import figure as _figure
+from ._plot_studies import of_calibration, of_plan, of_sweep
+from ._values import frozen
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from ._result import Result
-
-_UM = 1000.0
-_LINE, _OTHER, _GREY = "#1f5fa8", "#c8501e", "#808080"  # told apart in print and without colour vision
-
 
 def _over_c_and_z(axes: Axes, result: Result, residual_mm: Any, title: str) -> None:
     """Residuals over C and Z, µm; of one section over C alone."""
@@ -96,16 +100,6 @@ def _spectrum(axes: Axes, result: Result) -> None:
     axes.legend(frameon=False, ncols=2, loc="upper right")
 
 
-def _figure(*kinds: str) -> tuple[Figure, list[Axes]]:
-    from matplotlib.figure import Figure
-
-    rows = 2 if len(kinds) == 4 else 1  # so that it is read in the width of a page
-    across = len(kinds) // rows
-    figure = Figure(figsize=(4.2 * across, 3.6 * rows), layout="constrained")
-    return figure, [figure.add_subplot(rows, across, i + 1, projection="polar" if kind == "polar" else None)
-                    for i, kind in enumerate(kinds)]
-
-
 def _of_fit(result: Result) -> Figure:
     figure, (over, around, axis) = _figure("", "polar", "")
     _over_c_and_z(over, result, result.residual_mm, "Residuals")
@@ -129,7 +123,9 @@ def _of_diagnosis(result: Result) -> Figure:
     return figure
 
 
-def _of_form(result: Result) -> Figure:
+def _of_form(result: Result) -> Figure | None:
+    if not hasattr(result, "angle_rad_0"):
+        return None  # a plane has no profile
     figure, (around,) = _figure("polar")
     section = len(result.sections) // 2
     angle, raw, filtered = (getattr(result, f"{name}_{section}") for name in ("angle_rad", "raw_mm", "filtered_mm"))
@@ -152,14 +148,44 @@ def _of_spindle(result: Result) -> Figure:
     return figure
 
 
+def _courses(axes: Axes, c_deg: Any, wanted_mm: Any, command_mm: Any) -> None:
+    in_order = np.argsort(c_deg, kind="stable")  # C may begin anywhere and run down
+    for values_mm, colour, label in ((wanted_mm, _GREY, "wanted"), (command_mm, _LINE, "command")):
+        axes.plot(np.asarray(c_deg)[in_order], _UM * np.asarray(values_mm)[in_order], color=colour, label=label)
+    axes.set(title="Correction, first revolution", xlabel="C, degrees", ylabel="X_fts, µm")
+    axes.legend(frameon=False)
+
+
 def _of_correction(result: Result) -> Figure:
     figure, (axes,) = _figure("")
     turns = result.c_rad / (2.0 * np.pi)
     once = np.abs(turns - turns[0]) <= 1.0
-    axes.plot(np.degrees(result.c_rad[once]), _UM * result.wanted_mm[once], color=_GREY, label="wanted")
-    axes.plot(np.degrees(result.c_rad[once]), _UM * result.command_mm[once], color=_LINE, label="command")
-    axes.set(title="Correction, first revolution", xlabel="C, degrees", ylabel="X_fts, µm")
-    axes.legend(frameon=False)
+    _courses(axes, np.degrees(result.c_rad[once]), result.wanted_mm[once], result.command_mm[once])
+    return figure
+
+
+def _of_run(result: Result) -> Figure | None:
+    if result._outcome is None:
+        return _of_job(result)
+    return _of_correction(result) if len(result.c_rad) else None
+
+
+def _of_job(result: Result) -> Figure | None:
+    """The final axis of each seat, and the table over one revolution if there is one."""
+    seats = [one for one in result.references if one.fit.surface != "plane"]
+    table = result.files.get("table.csv", "").splitlines()
+    if not seats and not table:
+        return None
+    figure, charts = _figure(*[""] * (len(seats) + bool(table)))
+    for axes, seat in zip(charts, seats):
+        file = seat.diagnosis.file if "diagnosis" in seat else ""
+        _axis(axes, frozen(json.loads(result.files[file])).extended if file in result.files else seat.fit)
+        axes.set_title(f"{seat.name}: {axes.get_title()}")
+    if table:
+        rows = [line.split(",") for line in table if not line.startswith("#")]
+        c_deg, wanted, command = (rows[0].index(name) for name in ("C[deg]", "X_fts[mm]", "X_command[mm]"))
+        once = [[float(value) for value in row] for row in rows[1:] if row[0] == rows[1][0]]
+        _courses(charts[-1], *([row[k] for row in once] for k in (c_deg, wanted, command)))
     return figure
 
 
@@ -170,21 +196,21 @@ def _of_association(result: Result) -> Figure:
     return figure
 
 
-_KINDS: dict[str, Callable[[Result], Figure]] = {
+_KINDS: dict[str, Callable[[Result], Figure | None]] = {
     "trueaxis.fit": _of_fit, "trueaxis.diagnosis": _of_diagnosis, "trueaxis.form": _of_form,
-    "trueaxis.spindle": _of_spindle, "trueaxis.run": _of_correction, "trueaxis.association": _of_association,
+    "trueaxis.spindle": _of_spindle, "trueaxis.run": _of_run, "trueaxis.association": _of_association,
+    "trueaxis.sweep": of_sweep, "trueaxis.plan": of_plan, "trueaxis.calibration": of_calibration,
 }
 
 
 def figure_of(result: Result) -> Figure:
     """Returns the figure of a result."""
-    kind = str(result.schema).split("/")[0]
-    draw = _KINDS.get(kind)
-    needed = {"trueaxis.run": "c_rad", "trueaxis.form": "angle_rad_0"}.get(kind)  # a plane's form has no profile
-    if draw is None or result._outcome is None or (needed and not len(getattr(result, needed, ()))):
+    draw = _KINDS.get(str(result.schema).split("/")[0])
+    figure = draw(result) if draw else None
+    if figure is None:
         report = '; its report is result.files["report.html"]' if "report.html" in result.files else ""
         raise TrueAxisError(f"{result.schema} has no figure{report}")
-    return draw(result)
+    return figure
 
 
 def svg_of(result: Result) -> str:

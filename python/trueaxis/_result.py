@@ -147,7 +147,9 @@ class Result:
         """Draws the result with matplotlib.
 
         A fit shows its residuals over C and Z, its polar roundness and its axis with U; a diagnosis
-        the spectrum before and after as well; a form, a separation and a correction their curves.
+        the spectrum before and after as well; a form, a separation and a correction their curves. A job
+        shows the axis of each seat and its table, a sweep the ratio of error and bound, a plan U and
+        its goal, a calibration the errors with U.
 
         Returns
         -------
