@@ -18,9 +18,8 @@ class CMakeBuild(build_ext):
     def build_extension(self, ext):
         target = Path(self.get_ext_fullpath(ext.name)).resolve()
         if not (BUILD / "build.ninja").exists():
-            subprocess.run(["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DTRUEAXIS_UNITY=ON",
-                            "-DTRUEAXIS_PYTHON=ON", "-DTRUEAXIS_TESTS=OFF", "-DTRUEAXIS_EXAMPLES=OFF",
-                            f"-DPython_EXECUTABLE={sys.executable}"], check=True)
+            subprocess.run(["cmake", "--preset", "release", "-B", BUILD, "-DTRUEAXIS_PYTHON=ON", "-DTRUEAXIS_TESTS=OFF",
+                            "-DTRUEAXIS_EXAMPLES=OFF", f"-DPython_EXECUTABLE={sys.executable}"], cwd=ROOT, check=True)
         subprocess.run(["cmake", "--build", BUILD, "--target", "trueaxis_python"], check=True)
         target.parent.mkdir(parents=True, exist_ok=True)
         self.copy_file(str(next((BUILD / "python/trueaxis").glob("_core.*.so"))), str(target))
