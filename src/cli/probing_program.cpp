@@ -16,7 +16,10 @@
 namespace trueaxis::cli {
 namespace {
 
-nc::ProbingControl control_of(const std::string&) { return nc::ProbingControl::linuxcnc; }
+nc::ProbingControl control_of(const std::string& word) {
+  if (word == "fanuc") return nc::ProbingControl::fanuc;
+  return word == "siemens" ? nc::ProbingControl::siemens : nc::ProbingControl::linuxcnc;
+}
 
 /// A control takes letters, digits, '_' and '-' in the name of a log.
 std::string log_name(const std::string& output) {
@@ -37,7 +40,7 @@ void ProbingOption::add_limits_to(CLI::App& command) {
 }
 
 void ProbingOption::add_to(CLI::App& command) {
-  add_option(command, "--program", control, one_of({"linuxcnc"}),
+  add_option(command, "--program", control, one_of({"linuxcnc", "fanuc", "siemens"}),
              "control whose probing program is written");
   add_limits_to(command);
 }

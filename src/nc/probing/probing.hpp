@@ -48,12 +48,13 @@ struct ProbingLimits {
   double spin_up_s = 0.0;      ///< in which C and Z get to their speed, for an analogue probe
   std::string work_offset = "G54";
   bool x_diameter = false;  ///< X words and measured positions of the control are diameters
+  char gcode_system = 0;    ///< of FANUC: 'A', 'B' or 'C'; 0: not stated
 
   double clear_x_mm() const { return reach_mm + ball_radius_mm + clearance_mm; }
   double clear_z_mm() const { return front_mm + ball_radius_mm + clearance_mm; }
 };
 
-enum class ProbingControl { linuxcnc, fanuc, siemens, heidenhain };
+enum class ProbingControl { linuxcnc, fanuc, siemens };
 
 struct ProbingProgram {
   std::string text;

@@ -45,6 +45,8 @@ void read_control(TomlTable table, nc::ProbingLimits& limits) {
                       return std::isalnum(c) != 0 || c == '.';
                     });
   if (!word) table.complain("work_offset", "must be one word of the control, such as G54");
+  limits.gcode_system =
+      table.choice<char>("gcode_system", {{"A", 'A'}, {"B", 'B'}, {"C", 'C'}}, '\0');
   limits.x_diameter = table.choice<bool>("x", {{"radius", false}, {"diameter", true}}, false);
 }
 

@@ -15,7 +15,7 @@ namespace trueaxis {
 ///     [part]    reach_mm  front_mm
 ///     [probe]   kind = "touch" | "analogue"  ball_radius_mm  feed_mm_per_min  clearance_mm
 ///               search_mm  rate_hz  spin_up_s
-///     [control] work_offset = "G54"  x = "radius" | "diameter"
+///     [control] work_offset = "G54"  x = "radius" | "diameter"  gcode_system = "A" | "B" | "C"
 ///
 /// @throws InputError with every diagnostic
 nc::ProbingLimits parse_probing_limits(std::string_view content, const std::string& path);

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "nc/probing/dialect.hpp"
+
+namespace trueaxis::nc {
+namespace {
+
+std::string number(double value, int decimals = 4) { return short_number(value, decimals); }
+
+/// SINUMERIK: MEAS=1 and WRITE. DIAMOF makes X a radius, its words and its measured position.
+class Siemens final : public Dialect {
+ public:
+  using Dialect::Dialect;
+
+  void begin(const std::vector<std::string>& remarks,
+             const std::vector<std::string>& log) override {
+    remark("schema: trueaxis.probing_program/1");
+    for (const std::string& one : remarks) remark(one);
+    remark("X is a radius; call the probe, its offset and the C axis before");
+    line("DEF INT K, ERR");
+    line("DEF REAL CR, CW, ZP, XS");
+    line("G71 G18 G40 G90 G94 DIAMOF " + limits_.work_offset);
+    line(fmt::format("IF ($AA_IW[X] < {}) AND ($AA_IW[Z] < {})", number(limits_.clear_x_mm()),
+                     number(limits_.clear_z_mm())));
+    remark("the probe is not clear of the part");
+    line("SETAL(65000)");
+    line("M30");
+    line("ENDIF");
+    if (dry_run_) return;
+    for (const std::string& one : log) write(fmt::format("\"{}\"", one));
+  }
+
+  void remark(const std::string& words) override { line("; " + words); }
+  void rapid_x(double x_mm) override { line("G0 X" + number(x_mm)); }
+  void rapid_z(double z_mm) override { line("G0 Z" + number(z_mm)); }
+
+  void touch(const TouchRun& run) override {
+    line(fmt::format("FOR K=0 TO {}", run.count - 1));
+    line("CR=" + along(run.c_deg, run.c_step_deg));
+    line("CW=CR-360*TRUNC(CR/360)");
+    line("IF CW < 0");
+    line("CW=CW+360");
+    line("ENDIF");
+    line("ZP=" + along(run.z_mm, run.z_step_mm));
+    line("XS=" + along(run.stop_mm, run.stop_step_mm));
+    line("G0 Z=ZP C=DC(CW)");
+    line(fmt::format("{}G1 X=XS F{}", dry_run_ ? "" : "MEAS=1 ",
+                     number(60.0 * limits_.feed_mm_per_s)));
+    if (!dry_run_) {
+      line("STOPRE");
+      line("IF $AC_MEA[1] == 0");
+      remark("no contact");
+      line("SETAL(65001)");
+      line("M30");
+      line("ENDIF");
+      write(fmt::format("\"X \"<<$AA_MW[X]<<\" C \"<<CR<<\" Z \"<<ZP<<\" P {}\"", run.pass));
+    }
+    rapid_x(run.rear ? -limits_.clear_x_mm() : limits_.clear_x_mm());
+    line("ENDFOR");
+  }
+
+  void end() override {
+    if (!dry_run_) write(fmt::format("\"{}\"", log_end));
+    line("M30");
+  }
+
+ private:
+  /// WRITE appends: a log of an earlier run must be moved away, or import refuses the two.
+  void write(const std::string& words) {
+    line(fmt::format("WRITE(ERR,\"{}_LOG\",{})", name_, words));
+  }
+  static std::string along(double first, double each) {
+    if (each == 0.0) return number(first, 5);
+    return fmt::format("{}+({})*K", number(first, 5), number(each, 9));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Dialect> siemens_dialect(const ProbingLimits& limits, const std::string& name,
+                                         bool dry_run) {
+  return std::make_unique<Siemens>(limits, name, dry_run);
+}
+
+}  // namespace trueaxis::nc

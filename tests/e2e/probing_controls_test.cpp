@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Probing programs of FANUC and SINUMERIK on a control of the test's own.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/command_fixture.hpp"
+#include "support/plain_probing_control.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+const std::string both_sides =
+    "[part]\nsurface = \"cylinder\"\nradius_mm = 30\n[noise]\nsigma_um = 1\n"
+    "[[pass]]\nz_start_mm = -30\nz_end_mm = -10\nfeed_mm_per_rev = 10\n"
+    "readings_per_revolution = 12\n"
+    "[[pass]]\nz_start_mm = -10\nz_end_mm = -30\nfeed_mm_per_rev = 10\n"
+    "readings_per_revolution = 12\nspeed_rpm = -60\nsetup = 2\n"
+    "[[setup]]\nnumber = 2\nside = \"rear\"\n";
+
+struct Case {
+  std::string control, options;
+  bool diameter = false;
+};
+const Case cases[] = {{"fanuc", "gcode_system = \"A\"\nx = \"diameter\"\n", true},
+                      {"fanuc", "gcode_system = \"B\"\n"},
+                      {"siemens", ""}};
+
+class ProbingControls : public CommandTest {
+ protected:
+  /// A control that holds the program of a case.
+  PlainProbingControl ran(const Case& one, const std::string& options = "", double part_mm = 30.0,
+                          double from_x = 100.0, double from_z = 60.0) {
+    file("plan.toml", both_sides);
+    file("limits.toml",
+         "[limits]\nx_mm = [-80, 120]\nz_mm = [-60, 80]\nspeed_rpm = 400\n[part]\nreach_mm = 34\n"
+         "front_mm = 5\n[probe]\nkind = \"touch\"\nball_radius_mm = 1\nfeed_mm_per_min = 150\n"
+         "clearance_mm = 3\nsearch_mm = 1.5\n[control]\n" +
+             one.options);
+    const CommandStreams done = command(
+        "study plan plan.toml --goal-um 5 --repeats 100 --limits limits.toml -o p.nc "
+        "--force --program " +
+        one.control + options);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    PlainProbingControl control;
+    control.siemens = one.control == "siemens", control.x_diameter = one.diameter;
+    control.part_mm = part_mm, control.x = from_x, control.z = from_z;
+    control.run(read_text(folder_ / "p.nc"));
+    return control;
+  }
+};
+
+TEST_F(ProbingControls, TouchEveryPointAndLogIt) {
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl control = ran(one);
+    EXPECT_EQ(control.alarm, "");
+    std::size_t probed = 0;
+    double x = 100.0, z = 60.0;
+    for (const PlainProbingControl::Move& move : control.moves) {
+      if (move.probing) {
+        ++probed;
+        EXPECT_EQ(move.feed, 150.0);
+      } else {
+        EXPECT_TRUE(move.rapid);
+        // 34 mm of reach, 1 of ball, 3 of clearance; in front of the part at Z 9.
+        EXPECT_GE(std::abs(move.x), 38.0 - 1e-9);
+        EXPECT_TRUE(move.x * x > 0.0 || std::min(move.z, z) >= 9.0 - 1e-9) << x << " " << move.x;
+      }
+      x = move.x, z = move.z;
+    }
+    EXPECT_EQ(probed, 50u);
+    // The log is read without an option; it has four digits.
+    file("p.log", control.log);
+    ASSERT_EQ(command("import p.log -o s.csv --force").exit_code, 0) << control.log;
+    std::istringstream rows(read_text(folder_ / "s.csv"));
+    std::size_t k = 0;
+    for (std::string row; std::getline(rows, row);) {
+      double reading = 0.0, c = 0.0, position = 0.0;
+      int pass = 0, setup = 0;
+      if (std::sscanf(row.c_str(), "%lf,%lf,%lf,%d,%d", &reading, &c, &position, &pass, &setup) !=
+          5)
+        continue;
+      const bool rear = k >= 25;
+      const double i = static_cast<double>(k % 25);
+      EXPECT_NEAR(c, rear ? -30.0 * i : 30.0 * i, 1e-4);
+      EXPECT_NEAR(position, rear ? -10.0 - i * 20.0 / 24.0 : -30.0 + i * 20.0 / 24.0, 1e-4);
+      EXPECT_EQ(setup, rear ? 2 : 1);
+      const double met = rear ? -control.contact(c + 180.0) : control.contact(c);
+      EXPECT_NEAR(reading, one.diameter ? 2.0 * met : met, 1e-4);
+      ++k;
+    }
+    EXPECT_EQ(k, 50u);
+  }
+}
+
+TEST_F(ProbingControls, AnAirRunTouchesAndLogsNothing) {
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl control = ran(one, " --air-run", 33.0);
+    EXPECT_EQ(control.alarm, "");
+    EXPECT_EQ(control.log, "");
+    EXPECT_GT(control.moves.size(), 150u);
+  }
+}
+
+// A part that is not there, and a probe that is next to the part when the program starts.
+TEST_F(ProbingControls, StopWithAnAlarm) {
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl missed = ran(one, "", 20.0);
+    EXPECT_NE(missed.alarm, "");
+    EXPECT_FALSE(contains(missed.log, "END"));
+    const PlainProbingControl near = ran(one, "", 30.0, 36.0, -20.0);
+    EXPECT_NE(near.alarm, "");
+    EXPECT_TRUE(near.moves.empty());
+  }
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
