@@ -9,6 +9,7 @@ namespace trueaxis::cli {
 void add_init(CLI::App* command, int& exit_code);
 void add_import(CLI::App* command, int& exit_code);
 void add_run(CLI::App* command, int& exit_code);
+void add_watch(CLI::App* command, int& exit_code);
 void add_fit(CLI::App* command, int& exit_code);
 void add_form(CLI::App* command, int& exit_code);
 void add_spindle(CLI::App* command, int& exit_code);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/run.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -10,9 +12,7 @@
 #include "base/diagnostics.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/results.hpp"
 #include "cli/run_machine.hpp"
-#include "cli/stream_options.hpp"
 #include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -38,15 +38,6 @@ int exit_code_of_job(const JobResult& result) {
 std::string default_folder(const std::string& path) {
   return path == "-" ? "result" : std::filesystem::path(path).stem().string() + "_result";
 }
-
-struct RunArguments {
-  StreamOptions stream;  ///< `path` is the job's, or a stream's
-  AssociationOptions association;
-  CLI::Option* surface = nullptr;
-  std::string folder;
-  Results results;
-  bool force = false, verbose = false, check = false;
-};
 
 void print(const JobResult& result, const Outputs& outputs, const std::vector<ResultFile>& files,
            const EarlierRun& earlier, bool verbose) {
@@ -110,7 +101,9 @@ int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {
   return exit_code_of_job(result);
 }
 
-int execute(const RunArguments& options) {
+}  // namespace
+
+int run(const RunArguments& options) {
   const std::string& path = options.stream.path;
   if (!is_job(path))
     return run_lathe(job_of_stream(options.stream.file(), options.association.chosen()), options,
@@ -122,8 +115,6 @@ int execute(const RunArguments& options) {
         {options.folder, options.force, options.verbose, options.check, &options.results});
   return run_lathe(read_job_toml(content, path), options, false);
 }
-
-}  // namespace
 
 void add_run(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<RunArguments>();
@@ -141,7 +132,7 @@ void add_run(CLI::App* command, int& exit_code) {
     if (is_job(options->stream.path))
       expect_only(*command, {"stream", "--output", "--json", "--force", "--verbose", "--check"},
                   "is for a stream alone: write it into the job");
-    exit_code = execute(*options);
+    exit_code = run(*options);
   });
 }
 

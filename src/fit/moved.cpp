@@ -12,16 +12,6 @@
 namespace trueaxis {
 namespace {
 
-/// U of the axis at the end where it is larger; of a plane what its tilt makes there.
-double U_of_axis_mm(const FitResult& fit) {
-  const double outer_mm = std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
-  const double u_mm =
-      fit.surface == SurfaceKind::plane
-          ? outer_mm * fit.axis.u_slopes()
-          : std::max(fit.axis.u_at(fit.position_min_mm), fit.axis.u_at(fit.position_max_mm));
-  return fit.coverage_factor * u_mm;
-}
-
 /// A lone reading far off moves the centre of its turn; a part that moved takes its neighbours
 /// along.
 std::vector<double> without_lone_outliers(std::span<const double> left_mm) {
@@ -37,6 +27,15 @@ std::vector<double> without_lone_outliers(std::span<const double> left_mm) {
 }
 
 }  // namespace
+
+double U_of_axis_mm(const FitResult& fit) {
+  const double outer_mm = std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
+  const double u_mm =
+      fit.surface == SurfaceKind::plane
+          ? outer_mm * fit.axis.u_slopes()
+          : std::max(fit.axis.u_at(fit.position_min_mm), fit.axis.u_at(fit.position_max_mm));
+  return fit.coverage_factor * u_mm;
+}
 
 std::optional<CentreStep> moved_in_pass(const ProbeStream& stream, std::span<const double> left_mm,
                                         const FitResult& fit) {

@@ -8,6 +8,9 @@
 
 namespace trueaxis {
 
+/// U of the axis at the end where it is larger; of a plane what its tilt makes there.
+double U_of_axis_mm(const FitResult& fit);
+
 /// That the part moved within a pass, by more than U of the axis: its axis is then that of neither
 /// place (Eq. 314). None: it stood still, or bends.
 /// @param left_mm what the model of the readings leaves, one each

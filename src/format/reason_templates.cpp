@@ -47,7 +47,7 @@ std::string_view template_of(ReasonCode code) {
       {axes_of_no_part,
        "{@axes_apart}, farther than surfaces of one part can be, and no sign, unit, diameter or "
        "zero of one stream explains it: probe all references in one clamping"},
-      {column_reversed, "{column} of {file} runs in the opposite direction"},
+      {column_reversed, "{column}< of {file}> runs in the opposite direction<: {remedies}>"},
       {x_convention_wrong, "the X of {file} is a {convention}"},
       {probed_from_behind, "{file} was probed from behind"},
       {stream_in_unit, "{file} is in {unit}"},

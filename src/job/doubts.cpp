@@ -184,7 +184,8 @@ constinit const JobCheck axis_known{
 std::span<const AxisDoubt* const> axis_doubts() {
   static constexpr std::array all{&statement_refuted,  &slip_unsure,   &left_out_at_an_end,
                                   &far_off_at_the_end, &moves_in_pass, &left_unexplained,
-                                  &moves_with_axis,    &few_angles,    &sensor_at_limit};
+                                  &moves_with_axis,    &few_angles,    &sensor_at_limit,
+                                  &gauge_inverted};
   return all;
 }
 

@@ -24,6 +24,10 @@ struct AxisDoubt {
 /// standing spindle show of it.
 extern const AxisDoubt left_unexplained;
 
+/// The part leaves the wave of two undulations that its own eccentricity makes if the readings have
+/// the wrong sign.
+extern const AxisDoubt gauge_inverted;
+
 /// All of them: a statement that the readings refute, a slip that is not sure or at an end, a move
 /// within a pass by more than U of the axis (Eq. 314). Also an unexplained residual, a pattern or a
 /// cause that goes with the eccentricity, and angles so few that lobes look like one.

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/options.hpp"
+#include "cli/run.hpp"
+#include "cli/terminal.hpp"
+#include "format/outputs.hpp"
+#include "job/files/stream_job.hpp"
+#include "live/files/arriving_text.hpp"
+#include "live/files/live_text.hpp"
+#include "measure/files/stream_csv_write.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds between_pictures{150};
+
+struct WatchArguments {
+  RunArguments run;
+  double until_U_um = 0.0, idle_s = 10.0;
+  int most_kept = 2000000;
+  bool json_lines = false, hal = false;
+
+  std::optional<double> wanted_U_mm() const {
+    return until_U_um > 0.0 ? std::optional(until_U_um * mm_per_um) : std::nullopt;
+  }
+};
+
+volatile std::sig_atomic_t stopped = 0;
+
+/// Where the readings come from: a growing file, standard input, or halsampler.
+class Source {
+ public:
+  explicit Source(const WatchArguments& options) : idle_s_(options.idle_s) {
+    const std::string& path = options.run.stream.path;
+    if (options.hal) {
+      sampler_ = ::popen("halsampler", "r");
+      descriptor_ = sampler_ == nullptr ? -1 : ::fileno(sampler_);
+    } else {
+      descriptor_ = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    }
+    if (descriptor_ < 0) throw InputError(path, "cannot be opened: give a file that is there");
+    grows_ = !options.hal && path != "-" && std::filesystem::is_regular_file(path);
+  }
+  ~Source() {
+    if (sampler_ != nullptr)
+      ::pclose(sampler_);
+    else if (descriptor_ != STDIN_FILENO)
+      ::close(descriptor_);
+  }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  /// Waits at most a fifth of the time between two pictures; false: there is no more.
+  bool read(ArrivingText& text) {
+    pollfd waits{descriptor_, POLLIN, 0};
+    if (::poll(&waits, 1, 40) <= 0) return stopped == 0;
+    static char buffer[1 << 16];
+    const ssize_t got = ::read(descriptor_, buffer, sizeof buffer);
+    if (got > 0) {
+      text.add({buffer, static_cast<std::size_t>(got)});
+      last_ = Clock::now();
+    } else if (!grows_ || Clock::now() - last_ > std::chrono::duration<double>(idle_s_)) {
+      return false;
+    } else {
+      ::usleep(20000);
+    }
+    return stopped == 0;
+  }
+
+ private:
+  std::FILE* sampler_ = nullptr;
+  int descriptor_ = -1;
+  bool grows_ = false;
+  double idle_s_;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// The surface of the options, or the one that the readings show so far.
+FitOptions fit_of(const WatchArguments& options, const ProbeStream& sample) {
+  const FitOptions chosen = options.run.association.chosen();
+  if (options.run.surface->count() > 0) return chosen;
+  Job job = job_of_stream(options.run.stream.file(), chosen).job;
+  std::vector<ProbeStream> streams{sample};
+  choose_surfaces(job, streams);
+  return job.references.front().fit;
+}
+
+class Watch {
+ public:
+  explicit Watch(const WatchArguments& options)
+      : options_(options), live_(static_cast<std::size_t>(options.most_kept)) {}
+
+  /// What is there so far; prints it.
+  void update(ArrivingText& text) {
+    if (wrong_) return;
+    try {
+      if (std::optional<ProbeStream> next = text.take(options_.run.stream.said()))
+        live_.add(std::move(*next));
+      if (live_.kept().size() < fewest) return;
+      constexpr std::size_t enough_to_choose = 5000;
+      const FitOptions fit = fit_of(options_, live_.sample(enough_to_choose));
+      const LiveState state = live_state(live_, fit, known_);
+      show(state);
+      if (state.fit.axis_known() && !state.deaf) known_ = state.fit;
+      refused_ = 0;
+    } catch (const Refusal&) {  // not one surface yet, or never: `run` says which
+    } catch (const InputError& error) {
+      wrong_ = ++refused_ > most_refused;  // `run` lists all that is wrong
+    }
+    if (live_.stride() > 1) text.forget();
+  }
+
+  const LiveStream& live() const { return live_; }
+
+ private:
+  static constexpr std::size_t fewest = 20;
+  static constexpr int most_refused = 20;  // pictures: what a few lines do not show, more may
+
+  void show(const LiveState& state) {
+    const std::optional<double> wanted = options_.wanted_U_mm();
+    if (options_.json_lines)
+      std::cout << live_json_line(state, wanted) << std::flush;
+    else if (::isatty(STDOUT_FILENO) != 0)
+      std::cout << (pictures_++ > 0 ? "\x1b[20A\x1b[J" : "") << live_picture(state, wanted)
+                << std::flush;
+    const std::string alarm = live_alarm(state);
+    if (!alarm.empty() && alarm_.empty()) std::cerr << "STOP   " << alarm << std::endl;
+    alarm_ = alarm;
+    if (is_enough(state, wanted) && !enough_)
+      std::cerr << "enough U of the axis is reached after " << state.readings
+                << " readings: probing may stop" << std::endl;
+    enough_ = enough_ || is_enough(state, wanted);
+  }
+
+  const WatchArguments& options_;
+  LiveStream live_;
+  FitResult known_;  ///< the last one with an axis
+  std::string alarm_;
+  int pictures_ = 0, refused_ = 0;
+  bool enough_ = false, wrong_ = false;
+};
+
+/// The recording of a pipe goes into the folder of the results, and `run` reads it there.
+std::string written_stream(const std::string& path, bool force, ArrivingText& text,
+                           const LiveStream& live) {
+  Outputs outputs(force);
+  outputs.into(std::filesystem::path(path).parent_path().string());
+  outputs.may_write(path, "trueaxis.stream");
+  outputs.check();
+  if (live.stride() > 1)
+    write_stream_csv(live.kept(), outputs.open(path));
+  else
+    outputs.write(path, text.all());
+  outputs.commit();
+  return path;
+}
+
+int execute(WatchArguments& options) {
+  const bool from_pipe = options.hal || options.run.stream.path == "-";
+  const std::string recording = (std::filesystem::path(options.run.folder) / "stream.csv").string();
+  if (from_pipe && !options.run.force && std::filesystem::exists(recording))
+    throw InputError(recording, "is there already: give another folder (-o), or --force");
+  ArrivingText text(options.run.stream.path, options.hal ? TextForm::halsampler : TextForm::csv,
+                    from_pipe);
+  Watch watch(options);
+  {
+    Source source(options);
+    std::signal(SIGINT, [](int) { stopped = 1; });
+    Clock::time_point due = Clock::now();
+    while (source.read(text)) {
+      if (Clock::now() < due) continue;
+      due = Clock::now() + between_pictures;
+      watch.update(text);
+    }
+    text.end();
+    watch.update(text);
+    std::signal(SIGINT, SIG_DFL);
+  }
+  if (text.lost() > 0)
+    std::cerr << "lost   halsampler reports " << text.lost()
+              << " overruns: raise its depth, or sample more seldom\n";
+  if (from_pipe) {
+    if (watch.live().stride() > 1)
+      std::cerr << "thinned every " << watch.live().stride() << "th of " << watch.live().readings()
+                << " readings is kept, and the result is of those\n";
+    options.run.stream.path = written_stream(recording, options.run.force, text, watch.live());
+  }
+  return run(options.run);
+}
+
+}  // namespace
+
+void add_watch(CLI::App* command, int& exit_code) {
+  auto options = std::make_shared<WatchArguments>();
+  RunArguments& run = options->run;
+  run.stream.add_to(*command, "growing probe stream, or - for standard input");
+  command->get_option("stream")->required(false);
+  run.surface = run.association.add_to(*command);
+  add_place(*command, "-o,--output", run.folder,
+            "folder for the results (default INPUT_result, of a pipe `result`)");
+  command->add_flag("--hal", options->hal,
+                    "read halsampler: columns X_M (mm, radius), C (deg) and Z (mm)");
+  add_option(*command, "--until-u-um", options->until_U_um, a_length(),
+             "U of the axis at which probing may stop, µm (default none)");
+  command->add_flag("--json-lines", options->json_lines, "a line of JSON instead of a picture");
+  add_option(*command, "--idle-s", options->idle_s, a_length(),
+             "time without growth after which a file has ended, s (default 10)");
+  add_option(*command, "--most-readings", options->most_kept, CLI::Range(1000, 100000000),
+             "readings that are kept before they are thinned (default 2000000)");
+  add_json(*command, run.results, "trueaxis.run");
+  add_force(*command, run.force);
+  add_verbose(*command, run.verbose);
+  command->callback([=, &exit_code] {
+    RunArguments& run_options = options->run;
+    if (options->hal == !run_options.stream.path.empty())
+      throw CLI::RequiredError("FILE, - or --hal, one of them");
+    if (!run_options.stream.columns.empty() || run_options.stream.skip > 0)
+      throw CLI::ValidationError(
+          "--columns", "is for whole files: watch a stream, or --hal, or use import afterwards");
+    if (options->json_lines && run_options.results.printed())
+      throw CLI::ValidationError("--json", "cannot go where --json-lines go");
+    if (options->hal) run_options.stream.path = "-";
+    if (run_options.folder.empty())
+      run_options.folder =
+          run_options.stream.path == "-"
+              ? "result"
+              : std::filesystem::path(run_options.stream.path).stem().string() + "_result";
+    exit_code = execute(*options);
+  });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "measure/files/stream_csv.hpp"
+
+namespace trueaxis {
+
+enum class TextForm {
+  csv,         ///< a stream as docs/reference/stream.md has it
+  halsampler,  ///< blank-separated X_M, C, Z in mm and degrees, `overrun` where some were lost
+};
+
+/// The text of a stream while it arrives, read in pieces: the head, and the whole lines since the
+/// last time.
+class ArrivingText {
+ public:
+  /// @param keeps all of the text, as `all` needs it
+  ArrivingText(std::string source, TextForm form, bool keeps)
+      : source_(std::move(source)), form_(form), keeps_(keeps) {}
+
+  void add(std::string_view bytes);
+  void end();  ///< a last line without its end is one
+
+  /// The readings of the lines that are whole; none: no line since the last time.
+  /// @throws InputError; the lines are then tried again with those that follow
+  std::optional<ProbeStream> take(const StreamReadOptions& options);
+
+  /// With a line that says the schema of a stream.
+  const std::string& all() const { return all_; }
+  void forget();  ///< `all` is not needed
+  std::size_t lost() const { return lost_; }
+
+ private:
+  void add_line(std::string_view line);
+
+  std::string source_;
+  TextForm form_;
+  bool keeps_, has_head_ = false;
+  std::string head_, lines_, rest_, all_;
+  std::size_t lost_ = 0;
+};
+
+}  // namespace trueaxis

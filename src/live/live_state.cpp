@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/live_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "fit/moved.hpp"
+#include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::size_t most_used = 20000;  // a fit of them takes some 10 ms
+constexpr double least_slip = 0.25;  // of the noise of a reading: a long stream's U is far less
+
+double turns_of(const ProbeStream& stream) {
+  return std::abs(stream.c_rad.back() - stream.c_rad.front()) / two_pi;
+}
+
+void add_picture(LiveState& state, const ProbeStream& stream) {
+  std::array<double, LiveState::bins> sum{}, count{};
+  for (std::size_t i = 0; i < state.fit.residual_mm.size(); ++i) {
+    const double turns = stream.c_rad[i] / two_pi, share = turns - std::floor(turns);
+    const auto bin =
+        std::min(static_cast<std::size_t>(share * LiveState::bins), LiveState::bins - 1);
+    sum[bin] += state.fit.residual_mm[i];
+    count[bin] += 1.0;
+  }
+  for (std::size_t bin = 0; bin < LiveState::bins; ++bin)
+    state.left_mm[bin] = sum[bin] / count[bin];  // 0/0 without a reading
+}
+
+}  // namespace
+
+bool probe_is_deaf(const ProbeStream& stream, const FitResult& fit) {
+  if (!fit.axis_known()) return false;
+  std::vector<double> read, wanted;
+  std::size_t i = stream.size();
+  const double c_end = stream.c_rad.back();
+  while (i > 0 && std::abs(c_end - stream.c_rad[i - 1]) < 0.5 * two_pi) {
+    --i;
+    const double z = stream.has_position() ? stream.position_mm[i] : 0.0;
+    const auto [x, y] = fit.axis.axis.at(z);
+    read.push_back(stream.reading_mm[i]);
+    wanted.push_back(x * std::cos(stream.c_rad[i]) + y * std::sin(stream.c_rad[i]) +
+                     fit.shape.tan_half_angle * z);
+  }
+  if (i == 0) return false;
+  const double moves = range_of(wanted).length();
+  // The standard deviation is of the deaf readings too; the median is not.
+  return moves > 10.0 * mad_sigma(fit.residual_mm) && range_of(read).length() < 0.25 * moves;
+}
+
+LiveState live_state(const LiveStream& stream, const FitOptions& options, const FitResult& before) {
+  LiveState state;
+  const ProbeStream sample = stream.sample(most_used);
+  state.readings = stream.readings();
+  state.used = sample.size();
+  state.stride = stream.stride();
+  state.turns = turns_of(stream.kept());
+  state.fit = fit(sample, options);
+  state.U_mm =
+      state.fit.axis_known() ? U_of_axis_mm(state.fit) : std::numeric_limits<double>::infinity();
+  add_picture(state, sample);
+  state.moved = moved_in_pass(sample, state.fit.residual_mm, state.fit);
+  if (state.moved && state.moved->size_mm < least_slip * mad_sigma(state.fit.residual_mm))
+    state.moved.reset();
+  state.deaf = probe_is_deaf(stream.kept(), before.axis_known() ? before : state.fit);
+  return state;
+}
+
+}  // namespace trueaxis
