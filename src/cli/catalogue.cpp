@@ -33,7 +33,7 @@ const std::vector<CommandEntry> entries{
     {"Measure",
      "watch",
      "show axis, U and residuals while the readings arrive, then do what run does",
-     {"trueaxis watch part.csv", "probe | trueaxis watch - --until-u-um 1 -o part"},
+     {"trueaxis watch part.csv", "trueaxis watch - --until-u-um 1 -o part"},
      "docs/how-to/watch-a-measurement.md",
      add_watch},
     {"Measure",

@@ -49,8 +49,8 @@ int run_program(const std::vector<std::string>& words) {
   app.formatter_fn(help_of);
   app.set_version_flag("--version", "trueaxis " TRUEAXIS_VERSION);
   app.footer(
-      "Exit codes: 0 done, 1 refused, tolerance not met or axis not known, 2 usage, 3 input,\n"
-      "            4 numerical, 70 a bug.");
+      "Exit codes: 0 done, 1 refused, not met or not known, 2 usage, 3 input, 4 numerical, 70 a "
+      "bug.");
   int code = done;
   add_commands(app, code);
   NewNames names = with_new_names(words);

@@ -177,6 +177,13 @@ int execute(WatchArguments& options) {
   const std::string recording = (std::filesystem::path(options.run.folder) / "stream.csv").string();
   if (from_pipe && !options.run.force && std::filesystem::exists(recording))
     throw InputError(recording, "is there already: give another folder (-o), or --force");
+  if (options.run.check && !from_pipe) return run(options.run);
+  if (options.run.check) {
+    Outputs outputs(options.run.force);
+    outputs.may_write(recording, "trueaxis.stream");
+    outputs.check();
+    return checked(outputs, "watch what arrives, and then run it");
+  }
   ArrivingText text(options.run.stream.path, options.hal ? TextForm::halsampler : TextForm::csv,
                     from_pipe);
   Watch watch(options);
@@ -227,6 +234,7 @@ void add_watch(CLI::App* command, int& exit_code) {
   add_json(*command, run.results, "trueaxis.run");
   add_force(*command, run.force);
   add_verbose(*command, run.verbose);
+  add_check(*command, run.check);
   command->callback([=, &exit_code] {
     RunArguments& run_options = options->run;
     if (options->hal == !run_options.stream.path.empty())
