@@ -27,19 +27,6 @@ bool may_be_bend(const Hypothesis& lobes, const Hypothesis& bend) {
          bends_reading(bend.effect->term);
 }
 
-/// What the named columns cannot do of the best of some others, with all that stays (Eq. 87).
-double distance2(const Joint& joint, const Columns& others, const Columns& best,
-                 const Columns& named) {
-  Columns taken = others;
-  taken.insert(taken.end(), best.begin(), best.end());
-  const Eigen::VectorXd size = solve(joint.equations.total(), taken)
-                                   .coefficients.tail(static_cast<Eigen::Index>(best.size()));
-  taken.resize(others.size());
-  taken.insert(taken.end(), named.begin(), named.end());
-  return infer::left_of(project(joint.equations.total(), taken), best, size) /
-         (joint.sigma_mm * joint.sigma_mm);
-}
-
 }  // namespace
 
 ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::size_t term,
@@ -90,14 +77,20 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
   for (std::size_t k = 0; k < rivals.size(); ++k) {
     Candidate& c = causes[place[k]];
     const Columns& its = rivals[k].columns;
-    const std::size_t count = joint.equations.count();
-    const double apart = distance2(joint, base, own, its) - distance2(joint, base, its, own);
-    if (may_be_bend(named, c.hypothesis))
-      c.criterion =
-          criterion + apart - lobes_over_bend(named, own, c.hypothesis, its, beside, count);
-    else if (may_be_bend(c.hypothesis, named))
-      c.criterion =
-          criterion + apart + lobes_over_bend(c.hypothesis, its, named, own, beside, count);
+    const bool bent = may_be_bend(c.hypothesis, named);
+    if (bent || may_be_bend(named, c.hypothesis)) {
+      const std::size_t count = joint.equations.count();
+      const Hypothesis &lobes = bent ? c.hypothesis : named, &bend = bent ? named : c.hypothesis;
+      const Columns &of_lobes = bent ? its : own, &of_bend = bent ? own : its;
+      const Weighed as_lobes = weigh(lobes, beside, of_lobes, count);
+      const Weighed as_bend = weigh(bend, beside, of_bend, count);
+      const double over = counted_as_bend(
+          as_lobes.criterion + choice_of(lobes, as_lobes.mean) - as_bend.criterion -
+              choice_of(bend, as_bend.mean),
+          lobes_over_bend(lobes, of_lobes, bend, of_bend, beside, count),
+          apart_in_phase(of_lobes, of_bend, beside) / (joint.sigma_mm * joint.sigma_mm));
+      c.criterion = bent ? criterion + over : criterion - over;
+    }
     rivals[k].criterion = c.criterion;
   }
   const Class found = infer::distinguish(

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnose/regression/size_prior.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 // over a width and not all alike. Twice as much costs 32 ln² 2 = 15 in 2 ln L.
 constexpr double most_second = 0.3;
 constexpr double second_surprise = 32.0;
+// Odds that sizes alone give between lobes and a sensor that bends: with four to one the average of
+// both axes has either within two standard deviations.
+constexpr double most_odds = 4.0;
 
 }  // namespace
 
@@ -50,6 +54,22 @@ double lobes_over_bend(const Hypothesis& lobes, const Columns& its, const Hypoth
   const Weighed weighed = weigh(bend, beside, own, count);
   return criterion_as(lobes, its, bend, own, beside, count) - weighed.criterion -
          choice_of(bend, weighed.mean);
+}
+
+double apart_in_phase(const Columns& lobes, const Columns& bend, const Projection& beside) {
+  const Eigen::MatrixXd cross = beside.gram(lobes, bend);
+  const Eigen::MatrixXd nearest =
+      linear::product(linear::pseudo_inverse(beside.gram(lobes, lobes)), cross);
+  const Eigen::VectorXd with_readings = beside.gram(lobes, {0});
+  const Eigen::VectorXd right = linear::transposed_product(nearest, with_readings);
+  const Eigen::MatrixXd inverse =
+      linear::pseudo_inverse(linear::transposed_product(nearest, cross));
+  return score(beside, bend).gain - right.dot(inverse * right);
+}
+
+double counted_as_bend(double over_bend, double sizes, double apart) {
+  const double most = 2.0 * std::log(most_odds);
+  return std::min(over_bend - sizes, apart) + std::clamp(sizes, -most, most);
 }
 
 double log_p_of(const Candidate& c) {

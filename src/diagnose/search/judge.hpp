@@ -36,6 +36,18 @@ double criterion_as(const Hypothesis& rival, const Columns& its, const Hypothesi
 double lobes_over_bend(const Hypothesis& lobes, const Columns& its, const Hypothesis& bend,
                        const Columns& own, const Projection& beside, std::size_t count);
 
+/// How much more of the sum of squares lobes leave in just the phases and ratios that a bend makes
+/// than the bend itself.
+double apart_in_phase(const Columns& lobes, const Columns& bend, const Projection& beside);
+
+/// What lobes have more in the criterion than a bend with the same readings (Eq. 82e). Lobes in
+/// phase with the eccentricity fit as the bend does, and sizes alone give odds of four to one at
+/// most.
+/// @param over_bend that difference, each with its own columns
+/// @param sizes lobes_over_bend() of all
+/// @param apart what lobes in that phase leave more than the bend does, over the variance
+double counted_as_bend(double over_bend, double sizes, double apart);
+
 /// ln of its own p-value.
 double log_p_of(const Candidate& candidate);
 

@@ -18,9 +18,6 @@ namespace {
 
 constexpr std::size_t most_starts = 6;  // local forms that a search is begun with
 constexpr double in_the_class = 1e-3;   // probability, as of any class
-// Odds that sizes alone give between lobes and a sensor that bends: with four to one the average of
-// both axes has either within two standard deviations.
-constexpr double most_odds = 4.0;
 
 Model search_with(StepwiseSearch& engine) {
   bool pattern_was_better = false;
@@ -148,16 +145,24 @@ void count_as_bend(const Problem& problem, const Model& bent, Model& straight) {
       equations.total(), equations.base(), {places.begin(), mid}, equations.count()};
   const Projection left = project(in.gram, infer::besides(in.base, {mid, places.end()}));
   const double variance = left.rss / static_cast<double>(in.count - left.rank);
-  double criterion = bent.criterion, sizes = 0.0;
+  double sizes = 0.0;
+  Columns bends;
   for (std::size_t t = 0; t < named; ++t) {
     const Hypothesis& bend = bent.terms[t];
     if (!is_bent(bend)) continue;
+    bends.insert(bends.end(), places[t].begin(), places[t].end());
     sizes += lobes_over_bend(*lobes, places[static_cast<std::size_t>(lobes - all.begin())], bend,
                              places[t], in.beside(t), in.count);
-    criterion += infer::left_of(left, places[t], in.of(t)) / variance;
   }
-  const double most = 2.0 * std::log(most_odds);
-  straight.criterion = std::min(straight.criterion, criterion + std::clamp(sizes, -most, most));
+  if (bends.empty()) {  // only an impossible one
+    straight.criterion = std::min(straight.criterion, bent.criterion);
+    return;
+  }
+  const double apart =
+      apart_in_phase(infer::besides({}, {mid, places.end()}), bends, project(in.gram, in.base)) /
+      variance;
+  straight.criterion =
+      bent.criterion + counted_as_bend(straight.criterion - bent.criterion, sizes, apart);
 }
 
 /// What bends a sensor's readings is weighed against all that may be without it: two lobes that are
