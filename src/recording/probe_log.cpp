@@ -28,6 +28,7 @@ Tokens tokens_of(std::string_view line) {
 
 struct LoggedPass {
   std::size_t setup = 1, count = 0, every = 1;
+  std::size_t lead = 0;  ///< samples at either end, before and after the spindle has its speed
   std::size_t seen = 0;  ///< rows or samples so far
 };
 
@@ -95,7 +96,7 @@ class LogReader {
   }
 
   bool take_pass(const Tokens& tokens) {
-    if (tokens.size() != 7 || tokens[2] != "SETUP") return false;
+    if (tokens.size() < 7 || tokens[2] != "SETUP") return false;
     const auto pass = whole_number<std::size_t>(tokens[1]);
     const auto setup = whole_number<std::size_t>(tokens[3]);
     const auto number = whole_number<std::size_t>(tokens[6]);
@@ -107,6 +108,12 @@ class LogReader {
       out_.metadata.push_back(side);
     LoggedPass one{*setup};
     (every ? one.every : one.count) = *number;
+    if (tokens.size() != (every ? 9U : 7U)) return false;
+    if (every) {
+      const auto lead = whole_number<std::size_t>(tokens[8]);
+      if (tokens[7] != "LEAD" || !lead) return false;
+      one.lead = *lead;
+    }
     return head_.passes.emplace(*pass, one).second;
   }
 
@@ -146,15 +153,28 @@ class LogReader {
     if (pass == 0.0) return true;
     const auto found = head_.passes.find(static_cast<std::size_t>(pass));
     if (pass < 1.0 || found == head_.passes.end()) return false;
-    if (found->second.seen++ % found->second.every != 0) return true;
-    add(tokens[1], tokens[2], tokens[3], found->first, line);
-    const double seconds =
-        1e-9 * static_cast<double>(head_.period_ns) * static_cast<double>(*index);
-    out_.cells.push_back(out_.made.emplace_back(fmt::format("{:.9g}", seconds)));
+    if (!samples_.empty() && samples_.back().pass != found->first) take_pass_of_samples();
+    samples_.push_back({found->first, *index, line, tokens[1], tokens[2], tokens[3]});
     return true;
   }
 
+  /// The samples of a pass while the spindle has its speed.
+  void take_pass_of_samples() {
+    if (samples_.empty()) return;
+    LoggedPass& pass = head_.passes[samples_.front().pass];
+    for (std::size_t i = pass.lead; i + pass.lead < samples_.size(); i += pass.every) {
+      const Sample& one = samples_[i];
+      add(one.x, one.c, one.z, one.pass, one.line);
+      const double seconds =
+          1e-9 * static_cast<double>(head_.period_ns) * static_cast<double>(one.index);
+      out_.cells.push_back(out_.made.emplace_back(fmt::format("{:.9g}", seconds)));
+      ++pass.seen;
+    }
+    samples_.clear();
+  }
+
   void finish() {
+    take_pass_of_samples();
     if (!head_.ended)
       wrong(0, "the log ends before its program did: let it run to its end, or measure again");
     for (const auto& [number, pass] : head_.passes) {
@@ -182,6 +202,11 @@ class LogReader {
   const RecordedText& text_;
   Recording& out_;
   Head head_;
+  struct Sample {
+    std::size_t pass, index, line;
+    std::string_view x, c, z;
+  };
+  std::vector<Sample> samples_;  ///< of the pass that is read
   std::size_t overruns_ = 0;
 };
 

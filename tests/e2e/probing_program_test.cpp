@@ -159,22 +159,24 @@ TEST_F(ProbingProgram, ScansWhileTheSpindleTurns) {
   const std::vector<Call> all = calls();
   expect_clear(all);
   EXPECT_EQ(count(all, "STRAIGHT_PROBE"), 0u);
-  // Approach, run-in, readings and run-out of two passes, the approach of the standing capture.
+  // Approach and pass, twice, and the approach of the standing capture.
   std::vector<Call> feeds;
   for (const Call& one : all)
     if (one.name == "STRAIGHT_FEED") feeds.push_back(one);
-  ASSERT_EQ(feeds.size(), 9u);
-  for (const std::size_t approach : {0u, 4u, 8u}) {
+  ASSERT_EQ(feeds.size(), 5u);
+  for (const std::size_t approach : {0u, 2u, 4u}) {
     EXPECT_NEAR(feeds[approach].x, 30.0 + ball, 1e-4);
     EXPECT_EQ(feeds[approach].feed, 150.0);
   }
   const double rpm[] = {120.0, 302.0}, sign[] = {1.0, -1.0};
   for (std::size_t pass = 0; pass < 2; ++pass) {
-    const Call &first = feeds[4 * pass + 1], &last = feeds[4 * pass + 2];
-    EXPECT_NEAR(last.c - first.c, sign[pass] * 20.0 * 360.0, 1e-3);
-    // The interpreter makes mm/min along Z of the time of a block; it prints four digits.
-    EXPECT_NEAR(last.feed * 20.0 / std::abs(last.z - first.z), rpm[pass], 2e-4);
-    EXPECT_NEAR(std::abs(last.z - first.z), 20.0, 1e-4);
+    // 20 revolutions, and a run-in and run-out that last 0.2 s or one revolution.
+    const Call &first = feeds[2 * pass], &last = feeds[2 * pass + 1];
+    const double run_in = std::max(1.0, 0.2 * rpm[pass] / 60.0);
+    EXPECT_NEAR(last.c - first.c, sign[pass] * (20.0 + 2.0 * run_in) * 360.0, 1e-3);
+    EXPECT_NEAR(std::abs(last.z - first.z), 20.0 + 2.0 * run_in, 2e-4);
+    // The interpreter makes mm/min along Z of the time of a block, at 1 mm per revolution.
+    EXPECT_NEAR(last.feed, rpm[pass], 2e-4 * rpm[pass]);
   }
 }
 

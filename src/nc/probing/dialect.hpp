@@ -32,7 +32,7 @@ struct ScanRun {
   int pass = 1;
   double rpm = 0.0;      ///< 0: at standstill
   double seconds = 0.0;  ///< of a standing capture
-  ScanPoint begin, first, last, end;
+  ScanPoint begin, end;
 };
 
 /// The lines of the log before its rows; import knows them.

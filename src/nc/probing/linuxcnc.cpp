@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "nc/probing/dialect.hpp"
 
 namespace trueaxis::nc {
@@ -61,18 +63,20 @@ class LinuxCnc final : public Dialect {
     line(fmt::format("G1 X{} F{}", mm(run.begin.x_mm),
                      short_number(60.0 * limits_.feed_mm_per_s, 3)));
     if (run.rpm == 0.0) {
+      line("M66 E0 L0");
       reading(run.pass, "M68");
       line("G4 P" + short_number(run.seconds, 3));
       reading(0, "M68");
       return;
     }
-    line("G93");
-    move(run.begin, run.first, run.rpm);
+    // One block, so that nothing changes the speed within the pass; in the time that C needs, so
+    // that Z does not.
     reading(run.pass, "M67");
-    move(run.first, run.last, run.rpm);
+    line("G93");
+    const double turns = (run.end.c_deg - run.begin.c_deg) / 360.0;
+    line(fmt::format("G1 X{} Z{} C[#<turn> + {}] F{}", mm(run.end.x_mm), mm(run.end.z_mm),
+                     deg(run.end.c_deg), short_number(run.rpm / std::abs(turns), 6)));
     reading(0, "M67");
-    move(run.last, run.end, run.rpm);
-    reading(0, "M68");
     line("G94");
   }
 
@@ -91,13 +95,6 @@ class LinuxCnc final : public Dialect {
   /// What the sampler's pin motion.analog-out-00 says: the pass that is read, 0 for none.
   void reading(int pass, const char* code) {
     if (!dry_run_) line(fmt::format("{} E0 Q{}", code, pass));
-  }
-
-  /// In the time that C needs: inverse time, so that Z cannot change the speed.
-  void move(const ScanPoint& from, const ScanPoint& to, double rpm) {
-    const double turns = (to.c_deg - from.c_deg) / 360.0;
-    line(fmt::format("G1 X{} Z{} C[#<turn> + {}] F{}", mm(to.x_mm), mm(to.z_mm), deg(to.c_deg),
-                     short_number(rpm / (turns < 0.0 ? -turns : turns), 6)));
   }
 
   static std::string step(double value) { return short_number(value, 9); }

@@ -42,7 +42,7 @@ ScanRun scan_run(const ProbingPlan& plan, const ProbingPass& pass, int number,
                              : plan.radius_at(z) + limits.ball_radius_mm;
     return ScanPoint{360.0 * pass.turns * (share + before), pass.rear ? -x : x, z};
   };
-  run.begin = at(-before), run.first = at(0.0), run.last = at(1.0), run.end = at(1.0 + before);
+  run.begin = at(-before), run.end = at(1.0 + before);
   return run;
 }
 
@@ -75,6 +75,14 @@ std::string short_number(double value, int decimals) {
 
 int set_up_of(const ProbingPass& pass) { return pass.rear ? 2 : 1; }
 
+/// Samples before the pass is at its start with its speed, for any acceleration that reaches it in
+/// the time stated; as many are after its end.
+static std::size_t lead(const ProbingPass& pass, const ProbingLimits& limits) {
+  if (pass.turns == 0.0) return 0;
+  const double seconds = run_in(pass, limits) * pass.seconds + 0.5 * limits.spin_up_s;
+  return static_cast<std::size_t>(std::ceil(seconds * limits.rate_hz));
+}
+
 std::vector<std::string> log_head(const ProbingPlan& plan, const ProbingLimits& limits) {
   const bool touch = limits.kind == ProbeKind::touch;
   std::vector<std::string> lines{"TRUEAXIS PROBE LOG 1", touch ? "ROWS TOUCH" : "ROWS SAMPLES",
@@ -84,9 +92,14 @@ std::vector<std::string> log_head(const ProbingPlan& plan, const ProbingLimits& 
   for (std::size_t k = 0; k < plan.passes.size(); ++k) {
     const ProbingPass& pass = plan.passes[k];
     const double taken = limits.rate_hz * pass.seconds / static_cast<double>(pass.readings);
-    lines.push_back(fmt::format("PASS {} SETUP {} {} {} {}", k + 1, set_up_of(pass),
-                                pass.rear ? "REAR" : "FRONT", touch ? "COUNT" : "EVERY",
-                                touch ? pass.readings : static_cast<std::size_t>(taken)));
+    std::string line =
+        fmt::format("PASS {} SETUP {} {} ", k + 1, set_up_of(pass), pass.rear ? "REAR" : "FRONT");
+    if (touch)
+      line += fmt::format("COUNT {}", pass.readings);
+    else
+      line += fmt::format("EVERY {} LEAD {}", static_cast<std::size_t>(std::max(taken, 1.0)),
+                          lead(pass, limits));
+    lines.push_back(std::move(line));
   }
   lines.emplace_back("START");
   return lines;
