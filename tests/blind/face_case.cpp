@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "blind/face_case.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <functional>
 #include <map>
 
+#include "support/dense.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::blind {
@@ -84,7 +85,7 @@ double left2(const ProbeStream& stream, const std::vector<double>& other) {
     base.row(i) << 1.0, x * std::cos(stream.c_rad[k]), x * std::sin(stream.c_rad[k]);
     change(i) = other[k] - stream.reading_mm[k];
   }
-  return (change - base * base.colPivHouseholderQr().solve(change)).squaredNorm();
+  return dense::residuals(base, change).squaredNorm();
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "blind_machine/elsewhere.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <random>
 
 #include "blind_machine/catalogue.hpp"
+#include "support/dense.hpp"
 
 namespace trueaxis::blind_machine {
 
@@ -44,7 +45,7 @@ double error_elsewhere_mm(const Case& one, const ErrorModel& predicted) {
     for (Visit& visit : moved.visits) visit.centre_mm[static_cast<std::size_t>(k)] += 1.0;
     place.col(k) = read(moved, {}) - nominal;
   }
-  const VectorXd left = apart - place * place.householderQr().solve(apart);
+  const VectorXd left = dense::residuals(place, apart);
   return std::sqrt(left.squaredNorm() / static_cast<double>(plan.visits.size()));
 }
 

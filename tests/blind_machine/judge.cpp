@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "blind_machine/judge.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <stdexcept>
 
 #include "blind_machine/catalogue.hpp"
+#include "support/dense.hpp"
 
 namespace trueaxis::blind_machine {
 namespace {
@@ -120,14 +121,10 @@ void Judge::make_base() {
     for (Index j = 0; j < out.cols(); ++j) out.col(j) = list[static_cast<std::size_t>(j)];
     return out;
   };
-  const MatrixXd at = packed(places);
-  base_ =
-      Eigen::HouseholderQR<MatrixXd>(at).householderQ() * MatrixXd::Identity(at.rows(), at.cols());
-  const MatrixXd beside = beside_base(packed(errors));
-  const Eigen::BDCSVD<MatrixXd> svd(beside, Eigen::ComputeThinU);
-  const Index kept = (svd.singularValues().array() >= 1.0).count(), before = base_.cols();
-  base_.conservativeResize(Eigen::NoChange, before + kept);
-  base_.rightCols(kept) = svd.matrixU().leftCols(kept);
+  base_ = dense::basis(packed(places), 0.0);
+  const MatrixXd more = dense::directions_above(beside_base(packed(errors)), 1.0);
+  base_.conservativeResize(Eigen::NoChange, base_.cols() + more.cols());
+  base_.rightCols(more.cols()) = more;
 }
 
 std::size_t Judge::index(const std::string& name) const {
@@ -149,9 +146,7 @@ MatrixXd Judge::slip_columns(std::size_t visit) const {
 }
 
 double Judge::left(const VectorXd& mu, const MatrixXd& beside) {
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(beside);
-  qr.setThreshold(1e-6);
-  const MatrixXd q = qr.householderQ() * MatrixXd::Identity(beside.rows(), qr.rank());
+  const MatrixXd q = dense::basis(beside, 1e-6);
   return (mu - q * (q.transpose() * mu)).squaredNorm();
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "form/true_form.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "support/dense.hpp"
 
 namespace trueaxis::form_study {
 namespace {
@@ -49,7 +51,7 @@ SoftEnd soft_end(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double b
 
 /// Least range of h − rows q.
 double least_range(const Eigen::MatrixXd& rows, const Eigen::VectorXd& h) {
-  Eigen::VectorXd q = rows.colPivHouseholderQr().solve((h.array() - h.mean()).matrix());
+  Eigen::VectorXd q = dense::least_squares(rows, (h.array() - h.mean()).matrix());
   const auto range = [&](const Eigen::VectorXd& at) {
     const Eigen::VectorXd y = h - rows * at;
     return y.maxCoeff() - y.minCoeff();
@@ -62,7 +64,7 @@ double least_range(const Eigen::MatrixXd& rows, const Eigen::VectorXd& h) {
       const SoftEnd high = soft_end(rows, y, beta, 1.0), low = soft_end(rows, y, beta, -1.0);
       Eigen::MatrixXd curvature = high.curvature + low.curvature;
       curvature.diagonal().array() += 1e-6 * curvature.trace() + 1e-12;
-      const Eigen::VectorXd move = -curvature.ldlt().solve(high.slope + low.slope);
+      const Eigen::VectorXd move = -dense::solve_symmetric(curvature, high.slope + low.slope);
       double length = 1.0;
       const auto soft = [&](const Eigen::VectorXd& at) {
         const Eigen::VectorXd z = h - rows * at;

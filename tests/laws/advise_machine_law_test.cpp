@@ -3,7 +3,7 @@
 // the test's own matrices, which share no formula with the engine.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "support/ball_bench.hpp"
+#include "support/dense.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
 namespace trueaxis::testing {
@@ -228,10 +229,9 @@ class Columns {
   /// Adds directions to what is fitted.
   void add(MatrixXd columns, double least) {
     columns -= basis_ * (basis_.transpose() * columns);
-    const Eigen::BDCSVD<MatrixXd> svd(columns, Eigen::ComputeThinU);
-    const Index more = (svd.singularValues().array() > least).count(), before = basis_.cols();
-    basis_.conservativeResize(columns.rows(), before + more);
-    basis_.rightCols(more) = svd.matrixU().leftCols(more);
+    const MatrixXd more = dense::directions_above(columns, least);
+    basis_.conservativeResize(columns.rows(), basis_.cols() + more.cols());
+    basis_.rightCols(more.cols()) = more;
   }
   /// λ of an effect at its typical size in the phase that is seen least.
   double lambda(const MachineEffect& effect) const {
@@ -240,7 +240,7 @@ class Columns {
     for (Index k = 0; k < own.cols(); ++k)
       own.col(k) = of(*term_of(effect, visits_, typical_of(effect), 0.5 * 3.14159265 * k));
     own -= basis_ * (basis_.transpose() * own);
-    return Eigen::BDCSVD<MatrixXd>(own).singularValues().array().square().minCoeff();
+    return dense::singular_values(own).array().square().minCoeff();
   }
 
  private:

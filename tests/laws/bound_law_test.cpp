@@ -11,6 +11,7 @@
 
 #include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
+#include "support/dense.hpp"
 #include "support/sweep_examples.hpp"
 #include "trueaxis/units.hpp"
 
@@ -213,8 +214,8 @@ Eigen::VectorXd sd_written_out(const Scenario& scenario, const std::vector<doubl
                          correlation[static_cast<std::size_t>(std::abs(i - j))];
     covariance(i, i) += std::pow(scenario.noise.uniform_mm, 2) / 3.0;
   }
-  const Eigen::MatrixXd information = jacobian.transpose() * covariance.ldlt().solve(jacobian);
-  return information.inverse().diagonal().cwiseSqrt();
+  const Eigen::MatrixXd white = dense::solve_lower(dense::cholesky(covariance), jacobian);
+  return dense::inverse(white.transpose() * white).diagonal().cwiseSqrt();
 }
 
 TEST(Bound, WhitensAsTheInverseCovarianceDoes) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <iostream>
 
 #include "support/ball_bench.hpp"
+#include "support/dense.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -78,7 +79,7 @@ double score(std::uint64_t seed, double sigma_mm) {
   const MatrixXd J = own.of(data) / sigma_mm, K = own.of(elsewhere);
   // The prior of the plausible sizes bounds what no position shows.
   const MatrixXd information = J.transpose() * J + 1e-3 * MatrixXd::Identity(J.cols(), J.cols());
-  const MatrixXd covariance = information.inverse();
+  const MatrixXd covariance = dense::inverse(information);
   std::vector<Vector3> placed;
   for (const PlacedBall& ball : found.balls) placed.push_back(ball.centre_mm);
   const VectorXd error = own.deviations(elsewhere, found.errors, placed) -

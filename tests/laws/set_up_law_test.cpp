@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "laws/set_up_bench.hpp"
+#include "support/dense.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::laws {
@@ -107,7 +108,7 @@ Eigen::MatrixXd cramer_rao(const SetUpBench& bench, double sigma_mm) {
       jacobian(row, static_cast<Eigen::Index>(i)) = (up[at] - down[at]) / (2.0 * step);
     }
   }
-  return sigma_mm * sigma_mm * (jacobian.transpose() * jacobian).inverse();
+  return sigma_mm * sigma_mm * dense::inverse(jacobian.transpose() * jacobian);
 }
 
 TEST_P(SetUpLaw, UncertaintyIsTheCramerRaoBoundAndCovers) {

@@ -3,7 +3,7 @@
 // the data by others, apart from this engine (README of the data).
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
@@ -13,6 +13,7 @@
 
 #include "diagnose/files/diagnosis_text.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "support/dense.hpp"
 #include "support/diagnose_lathe.hpp"
 #include "support/places.hpp"
 #include "trueaxis/units.hpp"
@@ -114,20 +115,17 @@ Predicted with_lobes(const ProbeStream& stream, const std::vector<double>& resid
       columns(i, j) = x[static_cast<std::size_t>(j)];
     y(i) = residual_mm[row];
   }
-  const auto solved = [](const auto& a, const auto& b) -> Eigen::VectorXd {
-    return a.completeOrthogonalDecomposition().solve(b);
-  };
   double sum = 0.0;
   for (Eigen::Index section = 0; section < rows; section += 12) {
     Eigen::MatrixXd rest(rows - 12, columns.cols());
     Eigen::VectorXd of_rest(rows - 12);
     rest << columns.topRows(section), columns.bottomRows(rows - 12 - section);
     of_rest << y.head(section), y.tail(rows - 12 - section);
-    const Eigen::VectorXd off =
-        y.segment(section, 12) - columns.middleRows(section, 12) * solved(rest, of_rest);
+    const Eigen::VectorXd off = y.segment(section, 12) - columns.middleRows(section, 12) *
+                                                             dense::least_squares(rest, of_rest);
     sum += off.squaredNorm();
   }
-  const Eigen::VectorXd left = y - columns * solved(columns, y);
+  const Eigen::VectorXd left = dense::residuals(columns, y);
   return {std::sqrt(sum / static_cast<double>(rows)),
           std::sqrt(left.squaredNorm() / static_cast<double>(rows))};
 }
@@ -263,7 +261,7 @@ TEST_F(Trace, HasNoOvality) {
     x.row(row) << 1.0, std::cos(c), std::sin(c), std::cos(2.0 * c), std::sin(2.0 * c);
     y(row++) = found_.residual_before_mm[i];
   }
-  const Eigen::VectorXd fitted = x.colPivHouseholderQr().solve(y);
+  const Eigen::VectorXd fitted = dense::least_squares(x, y);
   std::cout << "H2 left " << 1e3 * fitted.tail(2).norm() << " um\n";
   EXPECT_LE(fitted.tail(2).norm(), 0.1e-3);
 }

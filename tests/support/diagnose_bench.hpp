@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
+#include "support/dense.hpp"
 #include "trueaxis/units.hpp"
 
 /// Streams, scenes and explicit matrices for tests of the diagnosis' parts. The matrices are of one
@@ -104,7 +105,7 @@ inline Eigen::VectorXd as_vector(std::span<const double> values) {
 
 /// Residual sum of squares of least squares by QR with pivoting.
 inline double explicit_rss(const Eigen::MatrixXd& columns, const Eigen::VectorXd& y) {
-  const Eigen::VectorXd solution = columns.colPivHouseholderQr().solve(y);
+  const Eigen::VectorXd solution = dense::least_squares(columns, y);
   return (y - columns * solution).squaredNorm();
 }
 

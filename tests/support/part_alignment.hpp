@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <vector>
 
+#include "support/dense.hpp"
 #include "trueaxis/machine.hpp"
 
 namespace trueaxis::testing {
@@ -27,8 +28,7 @@ inline std::vector<Eigen::Vector3d> without_rigid_body(const std::vector<Vector3
       }
     }
   }
-  const Eigen::VectorXd left =
-      values - columns * columns.bdcSvd(Eigen::ComputeThinU | Eigen::ComputeThinV).solve(values);
+  const Eigen::VectorXd left = dense::residuals(columns, values);
   std::vector<Eigen::Vector3d> out;
   for (Eigen::Index i = 0; i < n; ++i) out.push_back(left.segment<3>(3 * i));
   return out;

@@ -10,6 +10,9 @@
 #include <random>
 #include <vector>
 
+
+#include "support/dense.hpp"
+
 namespace trueaxis {
 namespace {
 
@@ -23,17 +26,14 @@ double deviance(double phi, const Eigen::VectorXd& y, const Eigen::MatrixXd& x) 
     for (Eigen::Index j = 0; j < readings; ++j)
       if (i / in_a_run == j / in_a_run)
         sigma(i, j) = std::pow(phi, std::abs(i - j)) / (1.0 - phi * phi);
-  const Eigen::LLT<Eigen::MatrixXd> root(sigma);
-  const Eigen::MatrixXd inner = x.transpose() * root.solve(x);
-  const Eigen::LLT<Eigen::MatrixXd> of_inner(inner);
-  const Eigen::VectorXd weighted = root.solve(y);
-  const Eigen::VectorXd b = of_inner.solve(x.transpose() * weighted);
-  const double rss = y.dot(weighted) - b.dot(inner * b);
-  const auto log_det = [](const Eigen::LLT<Eigen::MatrixXd>& of) {
-    return 2.0 * of.matrixLLT().diagonal().array().log().sum();
+  const Eigen::MatrixXd root = dense::cholesky(sigma);
+  const Eigen::MatrixXd white = dense::solve_lower(root, x);
+  const Eigen::VectorXd left = dense::residuals(white, dense::solve_lower(root, y));
+  const auto log_det = [](const Eigen::MatrixXd& lower) {
+    return 2.0 * lower.diagonal().array().log().sum();
   };
-  return log_det(root) + log_det(of_inner) +
-         static_cast<double>(readings - x.cols()) * std::log(rss);
+  return log_det(root) + log_det(dense::cholesky(white.transpose() * white)) +
+         static_cast<double>(readings - x.cols()) * std::log(left.squaredNorm());
 }
 
 /// The φ of the least deviance: golden section, after a grid has found its valley.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "infer/significance.hpp"
+#include "support/dense.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -51,14 +52,14 @@ TEST(SolveGram, IsLeastSquares) {
   const Columns columns{1, 2, 3, 4, 5, 6};
   const Solution s = solve(b.gram, columns);
   const MatrixXd x = b.pick(columns);
-  const VectorXd expected = x.colPivHouseholderQr().solve(b.all.col(0));
+  const VectorXd expected = dense::least_squares(x, VectorXd(b.all.col(0)));
   EXPECT_EQ(s.rank, 6u);
   EXPECT_NEAR(s.rss, b.rss(columns), 1e-8 * b.rss(columns));
   for (Index j = 0; j < 6; ++j)
     EXPECT_NEAR(s.coefficients(j), expected(j),
                 1e-7 * std::abs(expected(j)) + 1e-7 / x.col(j).norm())
         << j;
-  const MatrixXd inverse = (x.transpose() * x).inverse();
+  const MatrixXd inverse = dense::inverse(x.transpose() * x);
   for (Index j = 0; j < 6; ++j) EXPECT_NEAR(s.inverse(j, j) / inverse(j, j), 1.0, 1e-6) << j;
 }
 
@@ -68,7 +69,7 @@ TEST(SolveGram, LeavesOutWhatIsUndetermined) {
   const Solution s = solve(b.gram, columns);
   EXPECT_EQ(s.rank, 3u);
   EXPECT_NEAR(s.rss, b.rss({1, 2, 3}), 1e-9 * s.rss);
-  const VectorXd expected = b.pick({1, 2, 3}).colPivHouseholderQr().solve(b.all.col(0));
+  const VectorXd expected = dense::least_squares(b.pick({1, 2, 3}), VectorXd(b.all.col(0)));
   EXPECT_NEAR(s.coefficients(0) + 2.0 * s.coefficients(3), expected(0), 1e-9);
   EXPECT_EQ(solve(b.gram, {}).rss, b.gram(0, 0));
 }
@@ -77,7 +78,7 @@ TEST(ProjectGram, IsTheGramOfTheResiduals) {
   const Bench b(0.1);
   for (const Columns& taken : {Columns{1, 2, 5}, Columns{1, 3, 7}}) {
     const MatrixXd x = b.pick(taken);
-    const MatrixXd residual = b.all - x * x.colPivHouseholderQr().solve(b.all);
+    const MatrixXd residual = b.all - x * dense::least_squares(x, b.all);
     const Projection p = project(b.gram, taken);
     EXPECT_EQ(p.rank, taken.back() == 7 ? 2u : 3u);
     EXPECT_NEAR(p.rss, residual.col(0).squaredNorm(), 1e-9 * p.rss);
@@ -128,7 +129,7 @@ TEST(ScoreOfColumns, NaiveRegressionShrinksByRhoSquared) {
   const MatrixXd gram = all.transpose() * all;
   const Columns taken{1, 2, 3, 4, 5};
   const Projection p = project(gram, taken);
-  const VectorXd left = bow - base * base.colPivHouseholderQr().solve(bow);
+  const VectorXd left = dense::residuals(base, bow);
   const double rho2 = left.squaredNorm() / bow.squaredNorm();
   EXPECT_NEAR(rho2, 1.0 / 36.0, 1.0 / 36.0 / 60.0);
   EXPECT_NEAR(p.gram(6, 0) / p.norm2(6), amplitude * rho2, 1e-9 * amplitude);
@@ -157,7 +158,7 @@ TEST(HeldOut, IsTheRefitWithoutTheBlock) {
     VectorXd rest_y(rest.rows());
     rest << x.topRows(begin), x.bottomRows(x.rows() - end);
     rest_y << all.head(begin), all.tail(all.size() - end);
-    const VectorXd fitted = rest.colPivHouseholderQr().solve(rest_y);
+    const VectorXd fitted = dense::least_squares(rest, rest_y);
     const double expected =
         (all.segment(begin, end - begin) - x.middleRows(begin, end - begin) * fitted).squaredNorm();
     EXPECT_NEAR(held_out(equations.total(), equations.folds()[f], columns), expected,

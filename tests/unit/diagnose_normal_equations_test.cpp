@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnose/regression/normal_equations.hpp"
+#include "support/dense.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -35,8 +36,7 @@ MatrixXd whitening_of_first(const std::vector<double>& phi) {
       const auto lag = static_cast<std::size_t>(std::abs(r - c));
       for (std::size_t i = 0; i + lag < psi.size(); ++i) covariance(r, c) += psi[i] * psi[i + lag];
     }
-  const MatrixXd factor = covariance.llt().matrixL();
-  return factor.inverse();
+  return dense::inverse(dense::cholesky(covariance));
 }
 
 /// Out in front and back at the rear, with excluded readings and a gap in the sampling.

@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <limits>
 #include <random>
 #include <vector>
+
+
+#include "support/dense.hpp"
 
 namespace trueaxis {
 namespace {
@@ -39,10 +42,10 @@ TEST(LowerTriangle, LeavesFactorAndSchurComplement) {
       LowerTriangle left = triangle_of(all);
       ASSERT_TRUE(left.eliminate(static_cast<std::size_t>(count)));
       const Eigen::MatrixXd first = all.topLeftCorner(count, count);
-      const Eigen::MatrixXd factor = first.llt().matrixL();
+      const Eigen::MatrixXd factor = dense::cholesky(first);
       const Eigen::MatrixXd cross = all.bottomLeftCorner(size - count, count);
       const Eigen::MatrixXd rest = all.bottomRightCorner(size - count, size - count) -
-                                   cross * first.llt().solve(Eigen::MatrixXd(cross.transpose()));
+                                   cross * dense::inverse(first) * cross.transpose();
       for (Eigen::Index j = 0; j < size; ++j) {
         for (Eigen::Index i = j; i < size; ++i) {
           const double found = left(static_cast<std::size_t>(i), static_cast<std::size_t>(j));

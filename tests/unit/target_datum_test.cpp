@@ -9,6 +9,7 @@
 
 #include "job/files/job_toml.hpp"
 #include "job/files/job_words.hpp"
+#include "support/dense.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -95,7 +96,7 @@ Eigen::Vector4d least_squares_of(const std::vector<ProbeStream>& streams) {
       less[k] -= by;
       slope.col(k) = (residuals(more) - residuals(less)) / (2.0 * by);
     }
-    p -= slope.colPivHouseholderQr().solve(now);
+    p -= dense::least_squares(slope, now);
   }
   return p.head<4>();
 }
