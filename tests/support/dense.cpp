@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-namespace trueaxis::testing::dense {
+namespace trueaxis::dense {
 
 VectorXd least_squares(const MatrixXd& a, const VectorXd& b) {
   return a.colPivHouseholderQr().solve(b);
@@ -33,4 +33,4 @@ MatrixXd solve_lower(const MatrixXd& l, const MatrixXd& b) {
   return l.triangularView<Eigen::Lower>().solve(b);
 }
 
-}  // namespace trueaxis::testing::dense
+}  // namespace trueaxis::dense

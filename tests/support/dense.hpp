@@ -5,7 +5,7 @@
 
 // Eigen's decompositions of dynamic matrices for the tests, compiled once: a test that writes them
 // itself compiles them itself, 5 to 40 s each.
-namespace trueaxis::testing::dense {
+namespace trueaxis::dense {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -30,4 +30,4 @@ MatrixXd cholesky(const MatrixXd& s);
 /// L⁻¹ B of a lower triangle.
 MatrixXd solve_lower(const MatrixXd& l, const MatrixXd& b);
 
-}  // namespace trueaxis::testing::dense
+}  // namespace trueaxis::dense
