@@ -51,7 +51,7 @@ SoftEnd soft_end(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double b
 
 /// Least range of h − rows q.
 double least_range(const Eigen::MatrixXd& rows, const Eigen::VectorXd& h) {
-  Eigen::VectorXd q = dense::least_squares(rows, (h.array() - h.mean()).matrix());
+  Eigen::VectorXd q = dense::least_squares(rows, Eigen::VectorXd(h.array() - h.mean()));
   const auto range = [&](const Eigen::VectorXd& at) {
     const Eigen::VectorXd y = h - rows * at;
     return y.maxCoeff() - y.minCoeff();

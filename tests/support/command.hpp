@@ -21,41 +21,17 @@ struct CommandResult {
   std::string output;  ///< standard output and error
 };
 
-inline CommandResult shell(const std::string& command) {
-  CommandResult result;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return result;
-  char buffer[4096];
-  for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
-    result.output.append(buffer, n);
-  const int status = pclose(pipe);
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return result;
-}
+CommandResult shell(const std::string& command);
 
-inline CommandResult trueaxis_command(const std::string& arguments) {
-  return shell(places::command() + " " + arguments);
-}
+CommandResult trueaxis_command(const std::string& arguments);
 
 /// An empty folder under the build tree, made anew.
-inline std::filesystem::path fresh_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(places::scratch()) / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
+std::filesystem::path fresh_folder(const std::string& name);
 
-inline void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
+void write_text(const std::filesystem::path& path, const std::string& text);
 
-inline std::string read_text(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string read_text(const std::filesystem::path& path);
 
-inline nlohmann::json read_json(const std::filesystem::path& path) {
-  return nlohmann::json::parse(read_text(path));
-}
+nlohmann::json read_json(const std::filesystem::path& path);
 
 }  // namespace trueaxis::testing

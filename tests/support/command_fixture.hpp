@@ -14,13 +14,7 @@ namespace trueaxis::testing {
 /// A test that runs the command in an empty folder of its own.
 class CommandTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "_" + test->name();
-    std::ranges::replace_if(
-        name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-    folder_ = fresh_folder("command/" + name);
-  }
+  void SetUp() override;
 
   void file(const std::string& name, const std::string& text) { write_text(folder_ / name, text); }
   CommandStreams command(const std::string& arguments) { return run_in(folder_, arguments); }
@@ -28,30 +22,14 @@ class CommandTest : public ::testing::Test {
   bool there(const std::string& name) { return std::filesystem::exists(folder_ / name); }
 
   /// The command ends with code 3, says why on standard error only, and writes no file.
-  void expect_input_error(const std::string& arguments, const std::string& why) {
-    const auto before = files_in(folder_);
-    const CommandStreams done = command(arguments);
-    EXPECT_EQ(done.exit_code, 3) << arguments << '\n' << done.err;
-    EXPECT_EQ(done.out, "") << arguments;
-    EXPECT_TRUE(contains(done.err, why)) << arguments << '\n' << done.err;
-    EXPECT_EQ(files_in(folder_), before) << arguments;
-  }
+  void expect_input_error(const std::string& arguments, const std::string& why);
 
   std::filesystem::path folder_;
 };
 
 /// A job of one reference and a cylinder to be turned next to it.
-inline std::string simple_job(const std::string& reference, double speed_rpm = 600.0,
-                              double tolerance_um = 20.0) {
-  char cut[400];
-  std::snprintf(
-      cut, sizeof cut,
-      "\n[target]\nsurface = \"cylinder\"\nradius_mm = 28\nz_start_mm = 40\n"
-      "z_end_mm = 36\nstock_um = 20000\ncoaxiality_tolerance_um = %g\n[cut]\nspeed_rpm = %g\n"
-      "sense = \"+c\"\nfeed_mm_per_rev = 0.1\n",
-      tolerance_um, speed_rpm);
-  return "[[reference]]\n" + reference + cut;
-}
+std::string simple_job(const std::string& reference, double speed_rpm = 600.0,
+                       double tolerance_um = 20.0);
 
 /// What TrueAxis would take for a table of its own.
 inline const char* const earlier_table = "# schema: trueaxis.correction/1\nof an earlier run\n";
@@ -59,23 +37,12 @@ inline const char* const earlier_table = "# schema: trueaxis.correction/1\nof an
 inline const char* const cylinder_reference = "stream = \"part.csv\"\nsurface = \"cylinder\"\n";
 
 /// A shaft probed in 21 turns, one each second, with an effect; the axis is 20 µm below.
-inline std::string shaft_with(const std::string& effect, const std::string& sigma_um, double x0_um,
-                              double radius_mm, int seed) {
-  char part[400];
-  std::snprintf(part, sizeof part,
-                "seed = %d\n[part]\nkind = \"cylinder\"\nx0_um = %g\ny0_um = -20\nl = 0.0002\n"
-                "m = 0.0004\nradius_mm = %g\n[noise]\nsigma_um = %s\n[[pass]]\nz_start_mm = 0\n"
-                "z_end_mm = 20\nfeed_mm_per_rev = 1\nreadings_per_revolution = 24.3\n"
-                "speed_rpm = 60\n[[effect]]\n",
-                seed, x0_um, radius_mm, sigma_um.c_str());
-  return part + effect;
-}
+std::string shaft_with(const std::string& effect, const std::string& sigma_um, double x0_um,
+                       double radius_mm, int seed);
 
 /// An encoder that is 1.2 deg off its centre under a part 1.5 mm off the spindle's. Of the
 /// catalogue's linearised terms that of a probe millimetres off the centre's height comes nearest
 /// to it, and that height moves the lathe's readings quite otherwise.
-inline std::string refuted_shaft() {
-  return shaft_with("id = \"encoder.eccentricity\"\namplitude_deg = 1.2\n", "2", 1500.0, 20.0, 1);
-}
+std::string refuted_shaft();
 
 }  // namespace trueaxis::testing

@@ -10,7 +10,6 @@
 #include <random>
 #include <vector>
 
-
 #include "support/dense.hpp"
 
 namespace trueaxis {

@@ -9,7 +9,6 @@
 #include <random>
 #include <vector>
 
-
 #include "support/dense.hpp"
 
 namespace trueaxis {
