@@ -18,6 +18,7 @@ namespace {
 
 nc::ProbingControl control_of(const std::string& word) {
   if (word == "fanuc") return nc::ProbingControl::fanuc;
+  if (word == "heidenhain") return nc::ProbingControl::heidenhain;
   return word == "siemens" ? nc::ProbingControl::siemens : nc::ProbingControl::linuxcnc;
 }
 
@@ -40,7 +41,7 @@ void ProbingOption::add_limits_to(CLI::App& command) {
 }
 
 void ProbingOption::add_to(CLI::App& command) {
-  add_option(command, "--program", control, one_of({"linuxcnc", "fanuc", "siemens"}),
+  add_option(command, "--program", control, one_of({"linuxcnc", "fanuc", "siemens", "heidenhain"}),
              "control whose probing program is written");
   add_limits_to(command);
 }

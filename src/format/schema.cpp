@@ -57,12 +57,13 @@ std::string schema_in(std::string_view head) {
   if (head.starts_with("PK\x03\x04") && head.find("main.xml") == 30)  // a packed X3P
     head = head.substr(std::min(head.find("<?xml"), head.size()));
   if (head.starts_with("<?xml")) head = head.substr(std::min(head.find('\n'), head.size() - 1) + 1);
-  // FANUC's programs begin with a % and their number.
-  for (const char* first : {"%\n", "O"})
+  // FANUC's programs begin with a % and their number, HEIDENHAIN's with their name.
+  for (const char* first : {"%\n", "O", "0 BEGIN PGM "})
     if (head.starts_with(first)) head = head.substr(std::min(head.find('\n'), head.size() - 1) + 1);
   for (const auto of : {schema_of_json, schema_of_table, schema_of_page})
     if (const std::string_view found = of(head); !found.empty()) return std::string(found);
-  for (const char* comment : {"// schema: ", "<!-- schema: ", "; schema: ", "( schema: "})
+  for (const char* comment :
+       {"// schema: ", "<!-- schema: ", "; schema: ", "1 ; schema: ", "( schema: "})
     if (take_word(head, comment)) return std::string(schema_at(head));
   return "";
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Probing programs of FANUC and SINUMERIK on a control of the test's own.
+// Probing programs of FANUC, SINUMERIK and HEIDENHAIN on a control of the test's own.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "support/command_fixture.hpp"
-#include "support/plain_probing_control.hpp"
+#include "support/places.hpp"
+#include "support/plain_klartext_control.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -24,14 +25,18 @@ struct Case {
 };
 const Case cases[] = {{"fanuc", "gcode_system = \"A\"\nx = \"diameter\"\n", true},
                       {"fanuc", "gcode_system = \"B\"\n"},
-                      {"siemens", ""}};
+                      {"siemens", ""},
+                      {"heidenhain", ""}};
 
 class ProbingControls : public CommandTest {
  protected:
+  std::string plan_ = both_sides;
+  double slope_ = 0.0;
+
   /// A control that holds the program of a case.
   PlainProbingControl ran(const Case& one, const std::string& options = "", double part_mm = 30.0,
-                          double from_x = 100.0, double from_z = 60.0) {
-    file("plan.toml", both_sides);
+                          double from_x = 100.0, double from_z = 60.0, double from_y = 0.0) {
+    file("plan.toml", plan_);
     file("limits.toml",
          "[limits]\nx_mm = [-80, 120]\nz_mm = [-60, 80]\nspeed_rpm = 400\n[part]\nreach_mm = 34\n"
          "front_mm = 5\n[probe]\nkind = \"touch\"\nball_radius_mm = 1\nfeed_mm_per_min = 150\n"
@@ -42,10 +47,15 @@ class ProbingControls : public CommandTest {
         "--force --program " +
         one.control + options);
     EXPECT_EQ(done.exit_code, 0) << done.err;
-    PlainProbingControl control;
+    PlainKlartextControl control;
     control.siemens = one.control == "siemens", control.x_diameter = one.diameter;
-    control.part_mm = part_mm, control.x = from_x, control.z = from_z;
-    control.run(read_text(folder_ / "p.nc"));
+    control.part_mm = part_mm, control.x = from_x, control.z = from_z, control.y = from_y;
+    control.slope = slope_;
+    control.mask = read_text(places::source() + "/data/probing/trueaxis_line.a");
+    if (one.control == "heidenhain")
+      control.run(read_text(folder_ / "p.nc"));
+    else
+      control.PlainProbingControl::run(read_text(folder_ / "p.nc"));
     return control;
   }
 };
@@ -104,6 +114,30 @@ TEST_F(ProbingControls, AnAirRunTouchesAndLogsNothing) {
   }
 }
 
+// A cone that is 1.3 mm smaller than planned is in reach of a search of 1.5 mm; one of 1.7 mm is
+// not, at either end: where the probe stops follows the cone.
+TEST_F(ProbingControls, SearchAlongACone) {
+  plan_.replace(plan_.find("cylinder\""), 9, "cone\"\nhalf_angle_deg = 5");
+  slope_ = std::tan(5.0 * std::acos(-1.0) / 180.0);
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl met = ran(one, "", 28.7);
+    EXPECT_EQ(met.alarm, "");
+    std::size_t probed = 0;
+    for (const PlainProbingControl::Move& move : met.moves) {
+      if (!move.probing) continue;
+      ++probed;
+      EXPECT_NEAR(std::abs(move.x), 29.7 + slope_ * move.z, 0.1 + 1e-4);  // 0.1 mm off the axis
+    }
+    EXPECT_EQ(probed, 50u);
+    const PlainProbingControl missed = ran(one, "", 28.3);
+    EXPECT_NE(missed.alarm, "");
+    ASSERT_FALSE(missed.moves.empty());
+    const PlainProbingControl::Move& last = missed.moves.back();
+    EXPECT_NEAR(std::abs(last.x), 29.5 + slope_ * last.z, 1e-4);
+  }
+}
+
 // A part that is not there, and a probe that is next to the part when the program starts.
 TEST_F(ProbingControls, StopWithAnAlarm) {
   for (const Case& one : cases) {
@@ -114,6 +148,15 @@ TEST_F(ProbingControls, StopWithAnAlarm) {
     const PlainProbingControl near = ran(one, "", 30.0, 36.0, -20.0);
     EXPECT_NE(near.alarm, "");
     EXPECT_TRUE(near.moves.empty());
+  }
+}
+
+// Off the axis in Y, a probe meets a shaft at a smaller X.
+TEST_F(ProbingControls, HeidenhainStopsOffTheAxis) {
+  for (const double y : {-0.02, 0.02}) {
+    const PlainProbingControl control = ran({"heidenhain", ""}, "", 30.0, 100.0, 60.0, y);
+    EXPECT_NE(control.alarm, "");
+    EXPECT_TRUE(control.moves.empty());
   }
 }
 

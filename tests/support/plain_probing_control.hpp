@@ -22,6 +22,7 @@ class PlainProbingControl {
   bool x_diameter = false;
   double x = 100.0, z = 60.0, c = 0.0, feed = 0.0;
   double part_mm = 30.0, off_mm = 0.1, ball_mm = 1.0;
+  double slope = 0.0;  ///< of the part's radius over Z
   std::vector<Move> moves;
   std::string log, alarm;
 
@@ -43,7 +44,7 @@ class PlainProbingControl {
     }
   }
 
- private:
+ protected:
   [[noreturn]] static void unknown(const std::string& line) { throw std::runtime_error(line); }
   static bool take(std::string& line, const std::string& word) {
     if (line.rfind(word, 0) != 0) return false;
@@ -127,7 +128,7 @@ class PlainProbingControl {
     if (words.contains('C')) c = words['C'];
     if (words.contains('X')) {
       const double end = words['X'] / (x_diameter ? 2.0 : 1.0);
-      const double met = x > 0.0 ? contact(c) : -contact(c + 180.0);
+      const double met = x > 0.0 ? contact(c) + slope * z : -(contact(c + 180.0) + slope * z);
       touched_ = std::abs(end) < std::abs(met) && x * end > 0.0 && z < 5.0;
       if (touched_ && !probing) alarm = "collision";
       measured_ = x = touched_ ? met : end;

@@ -72,6 +72,8 @@ std::unique_ptr<Dialect> fanuc_dialect(const ProbingLimits& limits, const std::s
                                        bool dry_run);
 std::unique_ptr<Dialect> siemens_dialect(const ProbingLimits& limits, const std::string& name,
                                          bool dry_run);
+std::unique_ptr<Dialect> heidenhain_dialect(const ProbingLimits& limits, const std::string& name,
+                                            bool dry_run);
 
 /// A number of at most `decimals` digits after the point, without those that are 0.
 std::string short_number(double value, int decimals);

@@ -20,7 +20,7 @@ class Fanuc final : public Dialect {
     for (const std::string& one : remarks) remark(one);
     remark(limits_.x_diameter ? "X is a diameter" : "X is a radius");
     remark("axis 1 is X; call the probe, its offset and the C axis before");
-    line("G21 G18 G40 G80 " + limits_.work_offset);
+    line("G21 G18 G40 G80 " + limits_.offset());
     line(limits_.gcode_system == 'A' ? "G98" : "G90 G94");
     line(fmt::format("IF[#5041GE{}]GOTO10", x(limits_.clear_x_mm())));
     line(fmt::format("IF[#5042GE{}]GOTO10", number(limits_.clear_z_mm())));

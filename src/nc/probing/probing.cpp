@@ -114,9 +114,10 @@ ProbingProgram write_probing(const ProbingPlan& plan, const ProbingLimits& limit
     out.readings += pass.readings;
     out.minutes += seconds_of(pass, plan, limits) / 60.0;
   }
-  const auto make = control == ProbingControl::fanuc     ? fanuc_dialect
-                    : control == ProbingControl::siemens ? siemens_dialect
-                                                         : linuxcnc_dialect;
+  const auto make = control == ProbingControl::fanuc        ? fanuc_dialect
+                    : control == ProbingControl::siemens    ? siemens_dialect
+                    : control == ProbingControl::heidenhain ? heidenhain_dialect
+                                                            : linuxcnc_dialect;
   const std::unique_ptr<Dialect> words = make(limits, name, dry_run);
   const bool touch = limits.kind == ProbeKind::touch;
   std::vector<std::string> remarks{plan.what,

@@ -46,15 +46,16 @@ struct ProbingLimits {
   double search_mm = 0.0;      ///< how far beyond the expected contact a probe may go
   double rate_hz = 0.0;        ///< of an analogue probe
   double spin_up_s = 0.0;      ///< in which C and Z get to their speed, for an analogue probe
-  std::string work_offset = "G54";
-  bool x_diameter = false;  ///< X words and measured positions of the control are diameters
-  char gcode_system = 0;    ///< of FANUC: 'A', 'B' or 'C'; 0: not stated
+  std::string work_offset;     ///< empty: not stated
+  bool x_diameter = false;     ///< X words and measured positions of the control are diameters
+  char gcode_system = 0;       ///< of FANUC: 'A', 'B' or 'C'; 0: not stated
 
+  std::string offset() const { return work_offset.empty() ? "G54" : work_offset; }
   double clear_x_mm() const { return reach_mm + ball_radius_mm + clearance_mm; }
   double clear_z_mm() const { return front_mm + ball_radius_mm + clearance_mm; }
 };
 
-enum class ProbingControl { linuxcnc, fanuc, siemens };
+enum class ProbingControl { linuxcnc, fanuc, siemens, heidenhain };
 
 struct ProbingProgram {
   std::string text;

@@ -113,6 +113,9 @@ void expect_drivable(const ProbingPlan& plan, const ProbingLimits& limits, Probi
   about_the_probe(plan, limits, control, refusals);
   refusals.unless(control == ProbingControl::fanuc || !limits.x_diameter,
                   "x = \"diameter\" is for FANUC: the programs of other controls measure radii");
+  refusals.unless(control != ProbingControl::heidenhain || limits.work_offset.empty(),
+                  "a HEIDENHAIN control has presets: activate one at the control and take "
+                  "work_offset out");
   refusals.unless(control != ProbingControl::fanuc || limits.gcode_system != 0,
                   "a FANUC lathe needs gcode_system = \"A\", \"B\" or \"C\" in [control]: G90 and "
                   "G94 are cycles in system A");

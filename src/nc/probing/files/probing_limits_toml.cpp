@@ -39,12 +39,14 @@ void read_probe(TomlTable table, nc::ProbingLimits& limits) {
 }
 
 void read_control(TomlTable table, nc::ProbingLimits& limits) {
-  limits.work_offset = table.text("work_offset", limits.work_offset);
-  const bool word = !limits.work_offset.empty() && limits.work_offset.size() < 8 &&
-                    std::ranges::all_of(limits.work_offset, [](unsigned char c) {
-                      return std::isalnum(c) != 0 || c == '.';
-                    });
-  if (!word) table.complain("work_offset", "must be one word of the control, such as G54");
+  if (const auto offset = table.maybe_text("work_offset")) {
+    limits.work_offset = *offset;
+    const bool word =
+        !offset->empty() && offset->size() < 8 && std::ranges::all_of(*offset, [](unsigned char c) {
+          return std::isalnum(c) != 0 || c == '.';
+        });
+    if (!word) table.complain("work_offset", "must be one word of the control, such as G54");
+  }
   limits.gcode_system =
       table.choice<char>("gcode_system", {{"A", 'A'}, {"B", 'B'}, {"C", 'C'}}, '\0');
   limits.x_diameter = table.choice<bool>("x", {{"radius", false}, {"diameter", true}}, false);
