@@ -68,6 +68,8 @@ TEST_F(ProbingControls, TouchEveryPointAndLogIt) {
     std::size_t probed = 0;
     double x = 100.0, z = 60.0;
     for (const PlainProbingControl::Move& move : control.moves) {
+      EXPECT_GE(move.c, 0.0);
+      EXPECT_LT(move.c, 360.0);
       if (move.probing) {
         ++probed;
         EXPECT_EQ(move.feed, 150.0);
@@ -138,7 +140,8 @@ TEST_F(ProbingControls, SearchAlongACone) {
   }
 }
 
-// A part that is not there, and a probe that is next to the part when the program starts.
+// A part that is not there, and a probe that is next to the part when the program starts; in front
+// of the part it is clear.
 TEST_F(ProbingControls, StopWithAnAlarm) {
   for (const Case& one : cases) {
     SCOPED_TRACE(one.control + one.options);
@@ -148,6 +151,7 @@ TEST_F(ProbingControls, StopWithAnAlarm) {
     const PlainProbingControl near = ran(one, "", 30.0, 36.0, -20.0);
     EXPECT_NE(near.alarm, "");
     EXPECT_TRUE(near.moves.empty());
+    EXPECT_EQ(ran(one, "", 30.0, 0.0, 60.0).alarm, "");
   }
 }
 
