@@ -50,14 +50,16 @@ static void read_header_line(struct fts_table *t, struct header *met, const char
   double value;
   if ((text = value_of(line, "schema"))) met->schema = strcmp(text, "trueaxis.correction/1\n") == 0;
   if ((text = value_of(line, "interpolation"))) met->linear = strcmp(text, "linear\n") == 0;
-  if ((text = value_of(line, "c_sense")) && take(&text, &value, " while"))
-    met->sense = (t->sense = (int)value) == 1 || t->sense == -1;
+  if ((text = value_of(line, "c_sense")) && take(&text, &value, " while")) {
+    met->sense = value == 1.0 || value == -1.0;
+    t->sense = value < 0.0 ? -1 : 1;
+  }
   if ((text = value_of(line, "speed"))) met->speed = take(&text, &t->speed_rpm, " rpm") && t->speed_rpm > 0.0;
   if ((text = value_of(line, "speed_limit")))
     met->limit = take(&text, &t->speed_limit_rpm, " rpm") && t->speed_limit_rpm >= t->speed_rpm;
   if ((text = value_of(line, "rows_per_revolution")) && take(&text, &value, ",")) {
-    t->per_revolution = (long)value;
-    met->rows = value >= 8.0 && value <= 100000.0;
+    met->rows = value >= 8.0 && value <= 100000.0 && value == floor(value);
+    t->per_revolution = met->rows ? (long)value : 8;
   }
   if ((text = value_of(line, "nose_centre")) && strncmp(text, "Z ", 2) == 0) {
     text += 2;

@@ -43,6 +43,7 @@ struct WatchArguments {
 };
 
 volatile std::sig_atomic_t stopped = 0;
+constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP};  // what has arrived is written and evaluated
 
 /// Where the readings come from: a growing file, standard input, or halsampler.
 class Source {
@@ -110,19 +111,16 @@ class Watch {
   /// What is there so far; prints it.
   void update(ArrivingText& text) {
     if (wrong_) return;
+    take(text);
     try {
-      if (std::optional<ProbeStream> next = text.take(options_.run.stream.said()))
-        live_.add(std::move(*next));
       if (live_.kept().size() < fewest) return;
       constexpr std::size_t enough_to_choose = 5000;
       const FitOptions fit = fit_of(options_, live_.sample(enough_to_choose));
       const LiveState state = live_state(live_, fit, known_);
       show(state);
       if (state.fit.axis_known() && !state.deaf) known_ = state.fit;
-      refused_ = 0;
-    } catch (const Refusal&) {  // not one surface yet, or never: `run` says which
-    } catch (const InputError& error) {
-      wrong_ = ++refused_ > most_refused;  // `run` lists all that is wrong
+    } catch (const Refusal&) {     // not one surface yet, or never: `run` says which
+    } catch (const InputError&) {  // too little of it yet
     }
     if (live_.stride() > 1) text.forget();
   }
@@ -132,6 +130,20 @@ class Watch {
  private:
   static constexpr std::size_t fewest = 20;
   static constexpr int most_refused = 20;  // pictures: what a few lines do not show, more may
+
+  void take(ArrivingText& text) {
+    try {
+      if (std::optional<ProbeStream> next = text.take(options_.run.stream.said())) {
+        live_.add(std::move(*next));
+        refused_ = 0;
+      }
+    } catch (const InputError& error) {
+      wrong_ = ++refused_ > most_refused;  // `run` lists all that is wrong
+      if (wrong_)
+        std::cerr << "wrong  " << error.diagnostics().front().message
+                  << ". There is no picture; what arrives is kept" << std::endl;
+    }
+  }
 
   void show(const LiveState& state) {
     const std::optional<double> wanted = options_.wanted_U_mm();
@@ -160,6 +172,8 @@ class Watch {
 /// The recording of a pipe goes into the folder of the results, and `run` reads it there.
 std::string written_stream(const std::string& path, bool force, ArrivingText& text,
                            const LiveStream& live) {
+  if (text.all().empty() && live.readings() == 0)
+    throw InputError("-", "nothing arrived: look at the program that writes the readings");
   Outputs outputs(force);
   outputs.into(std::filesystem::path(path).parent_path().string());
   outputs.may_write(path, "trueaxis.stream");
@@ -189,21 +203,22 @@ int execute(WatchArguments& options) {
   Watch watch(options);
   {
     Source source(options);
-    std::signal(SIGINT, [](int) { stopped = 1; });
+    for (const int signal : ending) std::signal(signal, [](int) { stopped = 1; });
+    std::signal(SIGPIPE, SIG_IGN);  // nobody reads the pictures: the recording goes on
     Clock::time_point due = Clock::now();
     while (source.read(text)) {
       if (Clock::now() < due) continue;
       due = Clock::now() + between_pictures;
       watch.update(text);
     }
-    text.end();
     watch.update(text);
-    std::signal(SIGINT, SIG_DFL);
+    for (const int signal : ending) std::signal(signal, SIG_DFL);
   }
   if (text.lost() > 0)
     std::cerr << "lost   halsampler reports " << text.lost()
               << " overruns: raise its depth, or sample more seldom\n";
   if (from_pipe) {
+    if (!text.torn().empty()) std::cerr << "torn   the last line has no end and is excluded\n";
     if (watch.live().stride() > 1)
       std::cerr << "thinned every " << watch.live().stride() << "th of " << watch.live().readings()
                 << " readings is kept, and the result is of those\n";

@@ -89,8 +89,8 @@ void sign_by_turns(std::span<const double> y, std::size_t begin, std::size_t end
     start = until;
   };
   for (std::size_t i = begin + 1; i <= end; ++i) {
-    if (y[i] >= y[high]) high = i;
-    if (y[i] <= y[low]) low = i;
+    if (y[i] > y[high]) high = i;  // the first of equal ones: what follows a pause is the next pass
+    if (y[i] < y[low]) low = i;
     if (sense <= 0 && y[i] - y[low] > back) {
       if (sense < 0) fill(low);
       sense = 1;

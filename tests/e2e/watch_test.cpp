@@ -154,11 +154,48 @@ TEST_F(Watch, AFileEndsWhenItNoLongerGrows) {
   EXPECT_EQ(read_text(folder_ / "out/result.json"), read_text(folder_ / "batch/result.json"));
 }
 
+TEST_F(Watch, ExcludesALastLineThatIsTorn) {
+  write_stream(10, [](double) { return Place{x0_mm, y0_mm, false}; });
+  std::string text = read_text(folder_ / "part.csv");
+  const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
+  file("part.csv", text.substr(0, text.size() - 4));  // Z lacks digits
+  watch("", 2);
+  EXPECT_EQ(exit_code_, 0) << said_;
+  EXPECT_TRUE(contains(said_, "torn   the last line has no end")) << said_;
+  EXPECT_EQ(read_text(folder_ / "out/stream.csv"),
+            "## schema: trueaxis.stream/1\n" + text.substr(0, last));
+}
+
+TEST_F(Watch, WaitsForASlowStream) {
+  write_stream(1, [](double) { return Place{x0_mm, y0_mm, false}; });
+  // Thirty readings of a sixth of a turn, which show no surface, for more than twenty pictures.
+  const auto done = shell("cd " + shell_word(folder_) +
+                          " && (head -n 31 part.csv; sleep 4; tail -n +32 part.csv; sleep 0.5) | " +
+                          shell_word(places::command()) +
+                          " watch - --json-lines --surface section -o out > lines.txt");
+  EXPECT_NE(done.exit_code, 3) << done.output;
+  const std::string text = read_text(folder_ / "lines.txt");
+  EXPECT_TRUE(contains(text, "\"readings\":200")) << text;
+}
+
+TEST_F(Watch, SaysWhileItArrivesThatTheLinesAreWrong) {
+  write_stream(30, [](double) { return Place{x0_mm, y0_mm, false}; });
+  file("part.csv",
+       "X_M[mm],C[deg],Z[mm],t[s]\n" +
+           read_text(folder_ / "part.csv").substr(std::string("X_M[mm],C[deg],Z[mm]\n").size()));
+  EXPECT_TRUE(watch("", 30).empty());
+  EXPECT_EQ(exit_code_, 3);
+  EXPECT_TRUE(contains(said_, "wrong  the row has 3 fields, the header names 4")) << said_;
+}
+
 TEST_F(Watch, RefusesWhatItCannotWatch) {
   write_stream(2, [](double) { return Place{x0_mm, y0_mm, false}; });
   EXPECT_EQ(command("watch").exit_code, 2);
   EXPECT_EQ(command("watch part.csv --hal").exit_code, 2);
   EXPECT_EQ(command("watch nowhere.csv").exit_code, 3);
+  const auto nothing = shell(": | (cd " + shell_word(folder_) + " && " +
+                             shell_word(places::command()) + " watch -)");
+  EXPECT_EQ(nothing.exit_code, 3) << nothing.output;
   EXPECT_EQ(command("watch part.csv --columns X=1,C=2,Z=3").exit_code, 2);
   std::filesystem::create_directory(folder_ / "result");
   file("result/stream.csv", "mine");

@@ -141,6 +141,21 @@ TEST(Passes, OutAndBackOnReversedSpindle) {
   EXPECT_EQ(shape(find_passes(plan.stream)), "0-361 C+ Z+\n361-721 C- Z-\n");
 }
 
+TEST(Passes, ReversedAfterAPauseAtOnePlace) {
+  // The last reading of a pass and the first of the next are at one C and Z, half a second apart.
+  for (const bool with_time : {true, false}) {
+    const Plan plan = Plan(with_time)
+                          .move(360, 1.0 / 36, 0.2 / 36)
+                          .jump(-1.0 / 36, -0.2 / 36)
+                          .move(360, -1.0 / 36, -0.2 / 36);
+    const auto passes = find_passes(plan.stream);
+    EXPECT_EQ(shape(passes), "0-360 C+ Z+\n360-720 C- Z-\n");
+    if (!with_time) continue;
+    for (const Pass& pass : passes)  // rounding of 360 steps
+      EXPECT_NEAR(std::abs(pass.speed_rad_per_s), two_pi / 36 / 0.01, 1e-9);
+  }
+}
+
 TEST(Passes, StationaryCaptureIsAPassOfItsOwn) {
   const Plan plan = Plan().move(360, 1.0 / 36, 0.2 / 36).move(500, 0, 0);
   const auto passes = find_passes(plan.stream);

@@ -70,19 +70,17 @@ void ArrivingText::add(std::string_view bytes) {
   rest_ += bytes;
 }
 
-void ArrivingText::end() {
-  if (!rest_.empty()) add_line(std::exchange(rest_, {}));
-}
-
 void ArrivingText::forget() {
   keeps_ = false;
   all_ = {};
 }
 
 std::optional<ProbeStream> ArrivingText::take(const StreamReadOptions& options) {
-  if (lines_.empty()) return {};
+  if (lines_.size() == tried_) return {};
+  tried_ = lines_.size();
   ProbeStream next = read_stream_csv_text(head_ + lines_, source_, options);
   lines_.clear();
+  tried_ = 0;
   return next;
 }
 

@@ -24,7 +24,6 @@ class ArrivingText {
       : source_(std::move(source)), form_(form), keeps_(keeps) {}
 
   void add(std::string_view bytes);
-  void end();  ///< a last line without its end is one
 
   /// The readings of the lines that are whole; none: no line since the last time.
   /// @throws InputError; the lines are then tried again with those that follow
@@ -34,6 +33,8 @@ class ArrivingText {
   const std::string& all() const { return all_; }
   void forget();  ///< `all` is not needed
   std::size_t lost() const { return lost_; }
+  /// Of a line that has not ended: a number in it may lack digits.
+  const std::string& torn() const { return rest_; }
 
  private:
   void add_line(std::string_view line);
@@ -42,7 +43,7 @@ class ArrivingText {
   TextForm form_;
   bool keeps_, has_head_ = false;
   std::string head_, lines_, rest_, all_;
-  std::size_t lost_ = 0;
+  std::size_t lost_ = 0, tried_ = 0;  ///< of `lines_`, bytes that no stream could be read of
 };
 
 }  // namespace trueaxis

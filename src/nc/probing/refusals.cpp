@@ -100,6 +100,12 @@ void expect_drivable(const ProbingPlan& plan, const ProbingLimits& limits, Probi
                     "pass {} runs from Z {:.4g} to {:.4g} mm with run-in and run-out, and Z goes "
                     "from {:.4g} to {:.4g} mm",
                     k + 1, low, high, limits.z_low_mm, limits.z_high_mm);
+    const double free_end = std::max(plan.passes[k].start_mm, plan.passes[k].end_mm);
+    refusals.unless(
+        free_end <= limits.front_mm,
+        "pass {} probes up to Z {:.4g} mm and the part ends at front_mm = {:.4g}: rapid "
+        "moves in front of it would meet what is probed",
+        k + 1, free_end, limits.front_mm);
     const double thick = plan.slope > 0.0 ? high : low, thin = plan.slope > 0.0 ? low : high;
     refusals.unless(plan.radius_at(thick) <= limits.reach_mm,
                     "the part has a radius of {:.4g} mm at Z {:.4g} mm and reach_mm is {:.4g}: "

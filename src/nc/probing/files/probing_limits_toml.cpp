@@ -38,14 +38,22 @@ void read_probe(TomlTable table, nc::ProbingLimits& limits) {
     if (table.has(key)) table.complain(key, "is of an analogue probe: take it out");
 }
 
+/// Another word would move the probe, or end the program, in front of its first move.
+bool is_work_offset(const std::string& word) {
+  const bool first = word.size() == 3 && word.starts_with("G5") && word[2] >= '4' && word[2] <= '9';
+  const bool last = word == "G59.1" || word == "G59.2" || word == "G59.3";  // of LinuxCNC
+  const bool settable =
+      word.size() == 4 && word >= "G505" && word <= "G599" &&  // of SINUMERIK
+      std::ranges::all_of(word.substr(1), [](unsigned char c) { return std::isdigit(c) != 0; });
+  return first || last || settable;
+}
+
 void read_control(TomlTable table, nc::ProbingLimits& limits) {
   if (const auto offset = table.maybe_text("work_offset")) {
     limits.work_offset = *offset;
-    const bool word =
-        !offset->empty() && offset->size() < 8 && std::ranges::all_of(*offset, [](unsigned char c) {
-          return std::isalnum(c) != 0 || c == '.';
-        });
-    if (!word) table.complain("work_offset", "must be one word of the control, such as G54");
+    if (!is_work_offset(*offset))
+      table.complain("work_offset",
+                     "must be a work offset: G54 to G59, G59.1 to G59.3, G505 to G599");
   }
   limits.gcode_system =
       table.choice<char>("gcode_system", {{"A", 'A'}, {"B", 'B'}, {"C", 'C'}}, '\0');
