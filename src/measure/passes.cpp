@@ -35,6 +35,37 @@ double slope_mm_per_rad(const ProbeStream& stream, const Pass& pass) {
   return spread > 0.0 ? (scz - sc * sz / n) / spread : 0.0;
 }
 
+/// Mean speed while the spindle turns, rad/s; 0 where time stands still. An eighth of a revolution
+/// does not count if it takes more than twice the median: it has a pause in it, such as that before
+/// the next pass.
+double speed_rad_per_s(const ProbeStream& stream, const Pass& pass) {
+  struct Eighth {
+    double turned_rad, took_s;
+  };
+  std::vector<Eighth> eighths;
+  for (std::size_t from = pass.begin, i = from + 1; i < pass.end; ++i) {
+    const double turned = stream.c_rad[i] - stream.c_rad[from];
+    if (std::abs(turned) < two_pi / 8.0 && i + 1 < pass.end) continue;
+    eighths.push_back({turned, stream.time_s[i] - stream.time_s[from]});
+    from = i;
+  }
+  std::vector<double> slowness;  // s/rad
+  for (const Eighth& one : eighths)
+    if (one.turned_rad != 0.0) slowness.push_back(one.took_s / std::abs(one.turned_rad));
+  if (slowness.empty()) return 0.0;
+  const auto middle = slowness.begin() + static_cast<std::ptrdiff_t>(slowness.size() / 2);
+  std::nth_element(slowness.begin(), middle, slowness.end());
+  const std::size_t last = pass.end - 1;
+  double turned_rad = stream.c_rad[last] - stream.c_rad[pass.begin];
+  double took_s = stream.time_s[last] - stream.time_s[pass.begin];
+  for (const Eighth& one : eighths) {
+    if (*middle <= 0.0 || one.took_s <= 2.0 * *middle * std::abs(one.turned_rad)) continue;
+    turned_rad -= one.turned_rad;
+    took_s -= one.took_s;
+  }
+  return took_s > 0.0 ? turned_rad / took_s : 0.0;
+}
+
 /// Fills what follows from the readings of a pass and its senses.
 void describe(const ProbeStream& stream, Pass& pass) {
   const std::size_t last = pass.end - 1;
@@ -43,9 +74,7 @@ void describe(const ProbeStream& stream, Pass& pass) {
   if (pass.c_sign == 0 || turned_rad == 0.0) return;
   pass.readings_per_revolution =
       static_cast<double>(last - pass.begin) * two_pi / std::abs(turned_rad);
-  if (!stream.time_s.empty() && stream.time_s[last] > stream.time_s[pass.begin]) {
-    pass.speed_rad_per_s = turned_rad / (stream.time_s[last] - stream.time_s[pass.begin]);
-  }
+  if (!stream.time_s.empty()) pass.speed_rad_per_s = speed_rad_per_s(stream, pass);
   if (pass.feed_sign != 0) {
     pass.feed_mm_per_rev = slope_mm_per_rad(stream, pass) * two_pi * (turned_rad > 0 ? 1 : -1);
   }

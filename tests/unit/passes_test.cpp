@@ -99,6 +99,37 @@ TEST(Passes, SpeedAndFeedAreSigned) {
   EXPECT_NEAR(passes[0].feed_mm_per_rev, -0.2, 1e-12);
 }
 
+// The reading that ends a positioning move belongs to the pass before it, and a pause within a pass
+// is not turned through: neither makes the spindle slower. Exact but for rounding in sums.
+TEST(Passes, AWaitIsNoSpeed) {
+  for (const double wait_s : {0.5, 2.0, 60.0}) {
+    const Plan plan = Plan()
+                          .move(480, 1.0 / 24, 30.0 / 480, 0.25 / 24)
+                          .jump(0.2, 0.0, wait_s)
+                          .move(480, 1.0 / 24, -30.0 / 480, 0.1 / 24);
+    const auto passes = find_passes(plan.stream);
+    ASSERT_EQ(passes.size(), 2U);
+    EXPECT_NEAR(passes[0].speed_rad_per_s, two_pi / 0.25, 1e-9) << wait_s;
+    EXPECT_NEAR(passes[1].speed_rad_per_s, two_pi / 0.1, 1e-9) << wait_s;
+    const auto paused = find_passes(Plan()
+                                        .move(240, 1.0 / 24, 15.0 / 480, 0.25 / 24)
+                                        .jump(0.2, 0.0, wait_s)
+                                        .move(240, 1.0 / 24, 15.0 / 480, 0.25 / 24)
+                                        .stream);
+    for (const Pass& pass : paused)
+      EXPECT_NEAR(pass.speed_rad_per_s, two_pi / 0.25, 1e-9) << wait_s;
+  }
+}
+
+// Times of a clock that is coarser than an eighth of a revolution: the mean speed, to its tick.
+TEST(Passes, CoarseTimes) {
+  Plan plan = Plan().move(480, 1.0 / 24, 30.0 / 480, 0.1 / 24);
+  for (double& t : plan.stream.time_s) t = std::floor(t / 0.05) * 0.05;
+  const auto passes = find_passes(plan.stream);
+  ASSERT_EQ(passes.size(), 1U);
+  EXPECT_NEAR(passes[0].speed_rad_per_s, two_pi / 0.1, two_pi / 0.1 * 0.05 / 1.95);
+}
+
 TEST(Passes, SectionsBetweenPositioningMoves) {
   Plan plan(false);
   for (int section = 0; section < 5; ++section) plan.move(12, 1.0 / 12, 0.0).jump(0, 34.0);
