@@ -51,7 +51,7 @@ class ProbingControls : public CommandTest {
     control.siemens = one.control == "siemens", control.x_diameter = one.diameter;
     control.part_mm = part_mm, control.x = from_x, control.z = from_z, control.y = from_y;
     control.slope = slope_;
-    control.mask = read_text(places::source() + "/data/probing/trueaxis_line.a");
+    control.mask = read_text(places::source() + "/data/probing/heidenhain_mask.txt");
     if (one.control == "heidenhain")
       control.run(read_text(folder_ / "p.nc"));
     else
