@@ -67,6 +67,7 @@ target_compile_options(trueaxis_cli PUBLIC $<$<CONFIG:Release>:-O1>)
 trueaxis_compile_rooms_as_one(trueaxis_cli)
 add_executable(trueaxis src/cli/main.cpp)
 target_link_libraries(trueaxis PRIVATE trueaxis_cli)
+trueaxis_link_core_first(trueaxis)
 # What is made of its tables of options is installed beside it.
 add_custom_command(TARGET trueaxis POST_BUILD
   COMMAND trueaxis completion bash > "${PROJECT_BINARY_DIR}/trueaxis.bash"
@@ -81,4 +82,5 @@ if(MPI_CXX_FOUND)
   add_executable(trueaxis-mpi ${TRUEAXIS_MPI})
   target_compile_definitions(trueaxis-mpi PRIVATE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
   target_link_libraries(trueaxis-mpi PRIVATE trueaxis_cli MPI::MPI_CXX)
+  trueaxis_link_core_first(trueaxis-mpi)
 endif()

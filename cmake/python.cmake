@@ -3,6 +3,7 @@
 pybind11_add_module(trueaxis_python MODULE NO_EXTRAS python/src/command.cpp python/src/lathe.cpp python/src/machine.cpp
   python/src/module.cpp python/src/points.cpp python/src/stream.cpp)
 target_link_libraries(trueaxis_python PRIVATE trueaxis_cli nlohmann_json::nlohmann_json)
+trueaxis_link_core_first(trueaxis_python)
 set_target_properties(trueaxis_python PROPERTIES OUTPUT_NAME _core
   LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/python/trueaxis")
 

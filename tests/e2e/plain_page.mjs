@@ -2,13 +2,10 @@
 // Opens a page of HTML and SVG, without a script of its own, in headless Chromium, in the light, the dark and on paper, and lists what is wrong:
 //   node plain_page.mjs PAGE.html [FOLDER_FOR_SCREENSHOTS]
 import {mkdirSync} from 'node:fs';
-import {createRequire} from 'node:module';
-import {dirname, join, resolve} from 'node:path';
-import {fileURLToPath, pathToFileURL} from 'node:url';
+import {join, resolve} from 'node:path';
+import {pathToFileURL} from 'node:url';
+import {launch} from './browser.mjs';
 
-const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
-const npm = process.env.TRUEAXIS_NPM ?? join(root, 'build/npm');
-const {chromium} = createRequire(join(npm, 'node_modules/'))('playwright-core');
 const [file, folder] = process.argv.slice(2);
 if (folder) mkdirSync(folder, {recursive: true});
 
@@ -36,7 +33,7 @@ function inspect() {
   return {dark: rgb(paper).slice(0, 3).reduce((a, b) => a + b) < 200, problems: [...new Set(problems)].slice(0, 8), plots: document.querySelectorAll('svg path').length};
 }
 
-const browser = await chromium.launch({executablePath: process.env.TRUEAXIS_CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
+const browser = await launch();
 const problems = [];
 for (const [name, width, colorScheme, media] of [['wide', 1400, 'light', 'screen'], ['phone', 390, 'light', 'screen'], ['dark', 1400, 'dark', 'screen'], ['paper', 703, 'dark', 'print']]) {
   const page = await browser.newPage({viewport: {width, height: 900}, colorScheme});

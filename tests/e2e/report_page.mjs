@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a report in headless Chromium as a reader would, wide, on a phone, in the dark and on paper, and lists what is wrong:
-//   node report_page.mjs REPORT.html [FOLDER_FOR_SCREENSHOTS]
+//   node report_page.mjs REPORT.html [--folded] [FOLDER_FOR_SCREENSHOTS]
+// --folded opens it wide and prints its banner, no more.
 // Pictures of whole pages are half of the work, so that they are made when they are asked for.
 import {existsSync, mkdirSync} from 'node:fs';
-import {createRequire} from 'node:module';
-import {dirname, join, resolve} from 'node:path';
-import {fileURLToPath, pathToFileURL} from 'node:url';
+import {join, resolve} from 'node:path';
+import {pathToFileURL} from 'node:url';
+import {launch} from './browser.mjs';
 
-const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
-const npm = process.env.TRUEAXIS_NPM ?? join(root, 'build/npm');
-const {chromium} = createRequire(join(npm, 'node_modules/'))('playwright-core');
 
-const [report, folder] = process.argv.slice(2);
+const folded = process.argv.includes('--folded');
+const [report, folder] = process.argv.slice(2).filter((word) => word !== '--folded');
 if (!report) {
-  console.error('usage: node report_page.mjs REPORT.html [FOLDER_FOR_SCREENSHOTS]');
+  console.error('usage: node report_page.mjs REPORT.html [--folded] [FOLDER_FOR_SCREENSHOTS]');
   process.exit(2);
 }
 if (folder) mkdirSync(folder, {recursive: true});
@@ -140,15 +139,11 @@ function inspectContrast() {
 
 const paperIsDark = () => { const [r, g, b] = getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number); return r + g + b < 200; };
 
-/** In the dark: dark paper that all can be read on; then printed: light, unfolded and nothing beyond the paper's width. */
-async function lookDark(browser) {
-  const page = await browser.newPage({viewport: {width: 1400, height: 1000}, colorScheme: 'dark'});
-  page.setDefaultTimeout(120000);
+/** When it gets dark: dark paper that all can be read on; then printed: light, unfolded and nothing beyond the paper's width. */
+async function lookDark(page) {
   const problems = [];
   page.on('pageerror', (error) => problems.push(`dark: page error: ${error.message}`));
-  await page.goto(pathToFileURL(resolve(report)).href);
-  await page.waitForFunction(() => window.trueaxisReport?.ready);
-  await page.evaluate(() => { window.trueaxisReport.unfold(); });
+  await page.emulateMedia({colorScheme: 'dark'});
   if (!await page.evaluate(paperIsDark)) problems.push('dark: the page is light');
   problems.push(...(await page.evaluate(inspectContrast)).map((problem) => `dark: ${problem}`));
   await shoot(page, 'dark.png');
@@ -166,7 +161,6 @@ async function lookDark(browser) {
   await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
   const open = await page.evaluate(() => document.querySelectorAll('details[open]').length);
   if (open) problems.push(`print: ${open} parts stay unfolded afterwards`);
-  await page.close();
   return problems;
 }
 
@@ -202,6 +196,8 @@ async function look(browser, {name, width, height}) {
     console.log(`${name} folded: ${(await page.evaluate(() => document.documentElement.scrollHeight) / height).toFixed(1)} screens`);
     problems.push(...await page.evaluate(inspectWidth));
     await shoot(page, `${name}_folded.png`);
+    console.log(await page.evaluate(() => document.querySelector('.banner')?.innerText ?? ''));
+    if (folded) return {page, problems};
     await page.evaluate(() => { window.trueaxisReport.unfold(); });
     const charts = await page.evaluate(inspectCharts);
     if (charts.count === 0) problems.push('there is no chart');
@@ -212,29 +208,21 @@ async function look(browser, {name, width, height}) {
     const curves = await page.evaluate(() => window.trueaxisReport.charts.filter((c) => c.getDom().closest('#error'))
       .flatMap((c) => c.getOption().series).filter((s) => s.type === 'scatter').length);
     if (curves) console.log(`${name}: ${curves} curves of errors`);
-    console.log(await page.evaluate(() => document.querySelector('.banner')?.innerText ?? ''));
   } catch (error) {
     problems.push(`the page does not get ready: ${error.message}`);
   }
   await shoot(page, `${name}.png`);
-  await page.close();
-  return problems.map((problem) => `${name}: ${problem}`);
+  return {page, problems: problems.map((problem) => `${name}: ${problem}`)};
 }
 
 if (!existsSync(report)) {
   console.error(`${report} is not there`);
   process.exit(2);
 }
-const browser = await chromium.launch({
-  executablePath: process.env.TRUEAXIS_CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-    '--no-first-run', '--disable-default-apps', '--force-device-scale-factor=1'],
-});
-const problems = [];
-for (const screen of [{name: 'wide', width: 1400, height: 1000}, {name: 'phone', width: 390, height: 844}]) {
-  problems.push(...await look(browser, screen));
-}
-if (!problems.length) problems.push(...await lookDark(browser));
+const browser = await launch();
+const {page, problems} = await look(browser, {name: 'wide', width: 1400, height: 1000});
+if (!folded) problems.push(...(await look(browser, {name: 'phone', width: 390, height: 844})).problems);
+if (!folded && !problems.length) problems.push(...await lookDark(page));
 await browser.close();
 problems.forEach((problem) => console.error(problem));
 console.log(problems.length ? `${problems.length} problems` : 'the report is sound');

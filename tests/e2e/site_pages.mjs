@@ -3,13 +3,9 @@
 //   node site_pages.mjs build/site
 import {createReadStream, existsSync, statSync} from 'node:fs';
 import {createServer} from 'node:http';
-import {createRequire} from 'node:module';
-import {dirname, extname, join, resolve} from 'node:path';
-import {fileURLToPath} from 'node:url';
+import {extname, join, resolve} from 'node:path';
+import {launch} from './browser.mjs';
 
-const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
-const npm = process.env.TRUEAXIS_NPM ?? join(root, 'build/npm');
-const {chromium} = createRequire(join(npm, 'node_modules/'))('playwright-core');
 const site = resolve(process.argv[2] ?? 'build/site');
 const types = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.svg': 'image/svg+xml', '.png': 'image/png'};
 
@@ -38,7 +34,7 @@ const inspect = () => ({
   ],
 });
 
-const browser = await chromium.launch({executablePath: process.env.TRUEAXIS_CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
+const browser = await launch();
 let formulas = 0;
 async function visit(width, addresses) {
   const page = await browser.newPage({viewport: {width, height: 900}});

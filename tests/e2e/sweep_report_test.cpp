@@ -54,34 +54,34 @@ TEST_F(SweepReport, TwoAxesAndTwoMethods) { expect_sound(shipped("noise", 20), "
 
 TEST_F(SweepReport, CasesOfListsAreWords) { expect_sound(shipped("plans", 2), "plans"); }
 
-/// Fourteen curves, of noises and losses, over eight lengths.
-study::PublishedSweep many_curves() {
+/// Two curves a noise, of two losses, over eight lengths of a face.
+study::PublishedSweep curves(const std::vector<double>& noises_mm) {
   study::Sweep sweep;
-  sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::face);
   sweep.repeats = 4;
   sweep.methods = {study::Method::fit, study::Method::huber};
   sweep.axes = {testing::over("pass.length_mm", {20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0}),
-                testing::over("noise.sigma_mm", {1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 7e-3, 0.01})};
+                testing::over("noise.sigma_mm", noises_mm)};
   return {sweep, {}};
 }
 
 // Fourteen curves of every parameter, in panels of twelve at most, are all drawn and told apart.
 TEST_F(SweepReport, MoreThanTwelveCurvesAreAllDrawn) {
-  const study::PublishedSweep file = many_curves();
-  const std::size_t curves = 7 * 2;
-  const std::size_t quantities = study::quantities(SurfaceKind::cylinder).size();
+  const std::vector<double> noises_mm = {1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 7e-3, 0.01};
+  const study::PublishedSweep file = curves(noises_mm);
+  const std::size_t quantities = study::quantities(SurfaceKind::plane).size();
   const Opinion opinion = open_page(page_of(file), "sweep_many_curves");
   EXPECT_TRUE(opinion.sound) << opinion.log;
   for (const char* screen : {"wide", "phone"}) {
     const std::string said =
-        screen + (": " + std::to_string(curves * quantities)) + " curves of errors";
+        screen + (": " + std::to_string(2 * noises_mm.size() * quantities)) + " curves of errors";
     EXPECT_NE(opinion.log.find(said), std::string::npos) << opinion.log;
   }
 }
 
 // A name that a phone's width does not hold is broken, not cut.
 TEST_F(SweepReport, LongNamesWrap) {
-  study::PublishedSweep file = many_curves();
+  study::PublishedSweep file = curves({1e-3, 2e-3});
   file.sweep.axes[1].name = "the noise of the probe with a name that says a great deal of it";
   expect_sound(file, "long_names");
 }
@@ -127,7 +127,7 @@ TEST_F(SweepReport, SaysWhichOfBoundRatioAndResultIsMissing) {
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cone);
   sweep.repeats = 10;
   const auto banner = [&](const std::string& name) {
-    return open_page(page_of({sweep, {}}), "banner_" + name).log;
+    return open_page(page_of({sweep, {}}), "banner_" + name, "--folded").log;
   };
   sweep.drawn = {{"noise.sigma_um", "noise.sigma_mm", study::Drawn::Kind::uniform, 0.004, 0.006}};
   std::string log = banner("drawn");

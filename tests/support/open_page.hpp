@@ -13,8 +13,9 @@
 namespace trueaxis::example {
 
 inline bool can_open_pages() {
-  const bool chromium =
-      std::getenv("TRUEAXIS_CHROMIUM") || std::filesystem::exists("/usr/bin/chromium");
+  const bool chromium = std::getenv("TRUEAXIS_CHROMIUM") ||
+                        std::filesystem::exists("/usr/bin/chromium-headless-shell") ||
+                        std::filesystem::exists("/usr/bin/chromium");
   return chromium && std::system("node --version >/dev/null 2>&1") == 0;
 }
 
@@ -35,14 +36,16 @@ struct Opinion {
   std::string log;
 };
 
-inline Opinion open_page(const std::string& html, const std::string& name) {
+/// Opened with all its looks, or with the option `--folded`: wide and folded, for its banner.
+inline Opinion open_page(const std::string& html, const std::string& name,
+                         const std::string& option = "") {
   const std::filesystem::path folder = std::filesystem::path(places::scratch()) / "report" / name;
   std::filesystem::create_directories(folder);
   const std::filesystem::path page = folder / "report.html", log = folder / "log.txt";
   std::ofstream(page, std::ios::binary) << html;
   const std::string command = "node '" + places::source() + "/tests/e2e/report_page.mjs' '" +
-                              page.string() + "'" + pictures(folder) + " >'" + log.string() +
-                              "' 2>&1";
+                              page.string() + "' " + option + pictures(folder) + " >'" +
+                              log.string() + "' 2>&1";
   const bool sound = std::system(command.c_str()) == 0;
   return {sound, read_page(log)};
 }
