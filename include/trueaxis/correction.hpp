@@ -195,6 +195,15 @@ struct RepeatingMotion {
   double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< u = (z − z_mid)/z_half
 };
 
+/// What becomes of an eccentricity once per revolution from the readings of the references to the
+/// cut: the axis of the cut is e^{gain + i lag} times the one that the table was made for, x + i y.
+/// It stays with the machine: probe, filter, servo and the zero of C.
+struct LoopResponse {
+  double gain = 0.0;     ///< logarithm: 0.01 cuts 1 % too far off the spindle axis
+  double lag_rad = 0.0;  ///< positive: the axis comes out turned in the sense of the part's angle
+  double u_gain = 0.0, u_lag_rad = 0.0;  ///< standard uncertainties
+};
+
 /// How far what a control makes of a table is from the wanted correction, over the cut.
 struct Deviation {
   double largest_mm = 0.0;  ///< anywhere
@@ -207,6 +216,9 @@ struct Correction {
   Actuator actuator;
   AxisEstimate axis;                     ///< the target axis
   std::vector<RepeatingMotion> motions;  ///< of the machine, followed as well
+  LoopResponse loop{};                   ///< of the machine, for which the table is corrected
+  /// The axis that the table is made for, so that the target axis comes out.
+  Axis commanded_axis() const;
   /// Where the programmed path of the nose's centre starts and ends, Z (a face: X): the contact
   /// then runs from the target's start to its end, with run-in and overrun. All rows lie between.
   double position_start_mm = 0.0, position_end_mm = 0.0;
@@ -225,7 +237,8 @@ struct Correction {
 ///         radius); ContractViolation for quantities that cannot be.
 Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
                            const ToolSetup& tool, const Actuator& actuator,
-                           std::vector<RepeatingMotion> motions = {});
+                           std::vector<RepeatingMotion> motions = {},
+                           const LoopResponse& loop = {});
 
 /// The fewest rows per revolution that keep the deviation between them at most `limit`; 0: not even
 /// 100000 do.

@@ -13,6 +13,7 @@
 #include "trueaxis/datum_axis.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/fit.hpp"
+#include "trueaxis/machine_loop.hpp"
 #include "trueaxis/part_form.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/reason.hpp"
@@ -73,6 +74,8 @@ struct Job {
   /// Roundness and cylindricity of each reference in addition to its axis; false: a study of many
   /// jobs needs none, and `forms` stays empty where no tolerance asks for them.
   bool values_of_form = true;
+  /// What parts before told of the machine: the table is corrected for it.
+  LoopResponse loop{};
 };
 
 /// The machine motions that repeat at the tool: only these may be asked into a correction. A form
@@ -198,6 +201,7 @@ struct JobResult : PlannedJob {
   Verdict verdict{};
   /// One per reference: why its axis is withheld from its fits; `why_not` there is the code.
   std::vector<std::optional<Reason>> axis_unknown{};
+  std::optional<MachineFeedback> feedback{};  ///< of a job that learns from part to part
 };
 
 /// The fit whose axis the correction uses: the final one if the diagnosis found something and

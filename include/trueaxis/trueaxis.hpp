@@ -23,6 +23,7 @@
 #include "trueaxis/machine.hpp"            // a machine of several axes, its errors, compensation
 #include "trueaxis/machine_diagnosis.hpp"  // what the model of a machine gets wrong
 #include "trueaxis/machine_job.hpp"        // measurements in, errors, verdict and program out
+#include "trueaxis/machine_loop.hpp"       // what cuts told of the machine, for the next part
 #include "trueaxis/part_form.hpp"          // form without what is not of the part
 #include "trueaxis/probe_stream.hpp"       // the readings
 #include "trueaxis/program_harm.hpp"       // what a diagnosis of a machine means on a program

@@ -17,11 +17,13 @@
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "job/datum_axes.hpp"
+#include "job/files/feedback_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/files/job_words.hpp"
 #include "job/files/stream_job.hpp"
 #include "job/machine/files/machine_job_files.hpp"
+#include "job/machine_loop.hpp"
 #include "report/report.hpp"
 #include "trueaxis/job.hpp"
 
@@ -71,21 +73,32 @@ int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {
       expect_one_surface(streams[i], job.references[i].fit.surface,
                          of_stream ? RangesAs::options : RangesAs::keys);
   };
+  const bool learns = !options.previous.empty() || file.verification;
+  std::optional<MachineFeedback> feedback;
+  const auto take_over = [&] {
+    if (learns) feedback = feedback_before(file, streams, options.previous);
+  };
+  if (!options.previous.empty()) outputs.reads(options.previous);
   if (options.check) {
     name_job_files(outputs, file, options.folder);
     options.results.name_to(outputs);
     all_of({read, [&] { outputs.check(); }});
+    take_over();
     for (std::size_t i = 0; i < streams.size(); ++i)
       expect_associable(job.references[i], streams[i]);
     return checked(outputs, job_plan_text(job, streams, surface_known));
   }
   read();
   if (!surface_known) choose_surfaces(job, streams);
+  take_over();
+  if (feedback) job.loop = response_of(feedback->before, feedback->prior);
   name_job_files(outputs, file, options.folder);
   options.results.name_to(outputs);
   outputs.check();
   std::optional<Waiting> waiting("fit, diagnosis and correction of " + options.stream.path);
   JobResult result = of_file(file.path, [&] { return run_job(job, std::move(streams)); });
+  result.feedback = std::move(feedback);
+  if (result.feedback) learn_from_cut(result, file, options.previous);
   word_unknown_axes(result);
   std::ranges::for_each(result.fits, expect_enough_readings);
   std::vector<ResultFile> files = job_files(result);
@@ -109,6 +122,8 @@ int run(const RunArguments& options) {
     return run_lathe(job_of_stream(options.stream.file(), options.association.chosen()), options,
                      true);
   const std::string content = read_file(path);
+  if (is_machine_job(content, path) && !options.previous.empty())
+    throw CLI::ValidationError("--previous", "is for the cut of a lathe");
   if (is_machine_job(content, path))
     return run_machine(
         read_machine_job_toml(content, path),
@@ -123,6 +138,11 @@ void add_run(CLI::App* command, int& exit_code) {
   options->surface = options->association.add_to(*command);
   add_place(*command, "-o,--output", options->folder,
             "folder for the results (default INPUT_result, as shaft_result)");
+  command
+      ->add_option("--previous", options->previous,
+                   "result.json of the part before, probed again after its cut: what stays with "
+                   "the machine corrects this table")
+      ->type_name("RESULT");
   add_json(*command, options->results, "trueaxis.run");
   add_force(*command, options->force);
   add_verbose(*command, options->verbose);
@@ -130,8 +150,11 @@ void add_run(CLI::App* command, int& exit_code) {
   command->callback([=, &exit_code] {
     if (options->folder.empty()) options->folder = default_folder(options->stream.path);
     if (is_job(options->stream.path))
-      expect_only(*command, {"stream", "--output", "--json", "--force", "--verbose", "--check"},
+      expect_only(*command,
+                  {"stream", "--output", "--previous", "--json", "--force", "--verbose", "--check"},
                   "is for a stream alone: write it into the job");
+    else if (!options->previous.empty())
+      throw CLI::ValidationError("--previous", "is for a job with a [target]");
     exit_code = run(*options);
   });
 }

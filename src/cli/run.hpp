@@ -13,6 +13,7 @@ struct RunArguments {
   AssociationOptions association;
   CLI::Option* surface = nullptr;
   std::string folder;
+  std::string previous;  ///< result.json of the part before; empty: none
   Results results;
   bool force = false, verbose = false, check = false;
 };

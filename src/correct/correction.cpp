@@ -2,6 +2,8 @@
 #include "trueaxis/correction.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <utility>
 
 #include "correct/deviation.hpp"
@@ -38,9 +40,16 @@ const char* to_string(Interpolation interpolation) {
   return names[static_cast<std::size_t>(interpolation)];
 }
 
+Axis Correction::commanded_axis() const {
+  const std::complex<double> back = std::polar(std::exp(-loop.gain), -loop.lag_rad);
+  const std::complex<double> place = back * std::complex(axis.axis.x_mm, axis.axis.y_mm);
+  const std::complex<double> slope = back * std::complex(axis.axis.slope_x, axis.axis.slope_y);
+  return {place.real(), place.imag(), slope.real(), slope.imag(), axis.axis.z_ref_mm};
+}
+
 Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
                            const ToolSetup& tool, const Actuator& actuator,
-                           std::vector<RepeatingMotion> motions) {
+                           std::vector<RepeatingMotion> motions, const LoopResponse& loop) {
   actuator.validate();
   Correction correction;
   correction.target = target;
@@ -48,8 +57,9 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
   correction.actuator = actuator;
   correction.axis = axis;
   correction.motions = std::move(motions);
+  correction.loop = loop;
 
-  const Profile profile(axis.axis, target, tool, correction.motions);
+  const Profile profile(correction.commanded_axis(), target, tool, correction.motions);
   correction.position_start_mm = profile.position_start_mm();
   correction.position_end_mm = profile.position_end_mm();
   correction.rows = wanted_rows(profile);

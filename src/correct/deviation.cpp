@@ -69,7 +69,7 @@ Deviation between_rows(const Profile& profile, int rows, Interpolation by) {
 
 int rows_that_would_do(const Correction& correction, Interpolation by, const Deviation& limit) {
   constexpr double most_rows = 1e5;
-  const Profile profile(correction.axis.axis, correction.target, correction.tool,
+  const Profile profile(correction.commanded_axis(), correction.target, correction.tool,
                         correction.motions);
   double rows = correction.tool.rows_per_revolution;
   while (rows <= most_rows) {

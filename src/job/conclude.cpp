@@ -40,7 +40,7 @@ void plan_cut(PlannedJob& plan) {
   IncludedMotions included = included_motions(plan);
   plan.inclusions = std::move(included.inclusions);
   plan.correction = make_correction(solved.axis, target, plan.job.tool, plan.job.actuator,
-                                    std::move(included.motions));
+                                    std::move(included.motions), plan.job.loop);
   for (const ControlTable& output : plan.job.outputs)
     plan.control_files.push_back(make_control_table(*plan.correction, output));
 }

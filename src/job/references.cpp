@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include "job/machine_loop.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -77,11 +79,15 @@ const FitResult& fit_used(const IdentifiedJob& result, std::size_t reference) {
 AxisEstimate axis_of_reference(const PlannedJob& result, std::size_t i) {
   const FitResult& fit = fit_used(result, i);
   AxisEstimate out = i < result.diagnoses.size() ? axis_of(fit, result.diagnoses[i]) : fit.axis;
-  if (i >= result.associated.size() || !result.associated[i]) return out;
-  out.axis = with_association(result, i, out.axis);
-  const AxisEstimate& more = *result.associated[i];
-  std::ranges::transform(out.covariance.by_rows, more.covariance.by_rows,
-                         out.covariance.by_rows.begin(), std::plus{});
+  const auto add = [&](const AxisCovariance& more) {
+    std::ranges::transform(out.covariance.by_rows, more.by_rows, out.covariance.by_rows.begin(),
+                           std::plus{});
+  };
+  if (i < result.associated.size() && result.associated[i]) {
+    out.axis = with_association(result, i, out.axis);
+    add(result.associated[i]->covariance);
+  }
+  if (result.job.loop.u_lag_rad > 0.0) add(covariance_of(result.job.loop, out.axis));
   return out;
 }
 

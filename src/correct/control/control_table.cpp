@@ -19,7 +19,7 @@ std::size_t nodes_of_length(double length_mm, double step_mm) {
 }
 
 CorrectionGrid correction_grid(const Correction& correction, double c_step_rad, double step_mm) {
-  const Profile profile(correction.axis.axis, correction.target, correction.tool,
+  const Profile profile(correction.commanded_axis(), correction.target, correction.tool,
                         correction.motions);
   const auto [low, high] = std::minmax(correction.position_start_mm, correction.position_end_mm);
   CorrectionGrid grid;

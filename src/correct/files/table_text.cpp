@@ -133,6 +133,10 @@ std::string correction_header(const Correction& correction) {
       {"target_axis", axis_text(correction.axis)}};
   std::string text;
   for (const auto& [key, value] : lines) text += fmt::format("# {}: {}\n", key, value);
+  if (correction.loop.u_lag_rad > 0.0)
+    text +=
+        fmt::format("# machine_loop: the table is corrected for gain {:+.6f}, lag {:+.5f} deg\n",
+                    correction.loop.gain, correction.loop.lag_rad / rad_per_deg);
   return text;
 }
 

@@ -62,6 +62,10 @@ void name_job_files(Outputs& outputs, const JobFile& file, const std::string& fo
   outputs.reads(file.path);
   for (const StreamFile& stream : file.streams) outputs.reads(stream.path);
   for (const std::string& one : file.templates) outputs.reads(one);
+  if (file.verification) {
+    outputs.reads(file.verification->stream.path);
+    outputs.reads(file.verification->table);
+  }
   outputs.into(folder);
   for (const ResultName& result : job_file_names(file.job))
     outputs.may_write_in_folder(result.name, result.schema);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,19 @@ struct StreamFile {
   ZRange z{};  ///< readings at other Z are passed over
 };
 
+/// The cut as it was probed again.
+struct VerificationFile {
+  StreamFile stream;
+  std::string table;  ///< that the part was cut with
+};
+
 /// A job as it is written down: what run_job() gets, and the files it comes from.
 struct JobFile {
   std::string path;
   Job job{};
   std::vector<StreamFile> streams{};     ///< one per reference
   std::vector<std::string> templates{};  ///< that the files for controls are made by
+  std::optional<VerificationFile> verification{};
 };
 
 /// @throws InputError as read_recording() does

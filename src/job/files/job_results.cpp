@@ -12,6 +12,7 @@
 #include "job/agreement.hpp"
 #include "job/beyond_probed.hpp"
 #include "job/cut_files.hpp"
+#include "job/files/feedback_files.hpp"
 #include "job/files/job_words.hpp"
 #include "recording/import.hpp"
 #include "resimulate/files/comparison.hpp"
@@ -246,6 +247,7 @@ Json job_object(const JobResult& result) {
     json["correction"]["between_rows"]["coarse"] = coarse_rows_words(result);
   }
   if (!result.inclusions.empty()) json["included"] = inclusions_array(result.inclusions);
+  if (result.feedback) json["feedback"] = feedback_object(result);
   return json;
 }
 
@@ -340,6 +342,7 @@ std::string job_text(const JobResult& result) {
   if (result.correction)
     text +=
         correction_preview(*result.correction) + "\n" + coarse_rows_lines(result, "rows        ");
+  text += feedback_screen(result);
   return text;
 }
 

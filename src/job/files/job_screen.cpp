@@ -9,6 +9,7 @@
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_files.hpp"
+#include "job/files/feedback_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_words.hpp"
 #include "job/references.hpp"
@@ -130,7 +131,7 @@ std::string job_screen(const JobResult& result) {
   text += datum_screen(result);
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion " + inclusion_text(inclusion);
-  text += coarse_rows_lines(result, "rows   ");
+  text += coarse_rows_lines(result, "rows   ") + feedback_screen(result);
   return text + (asks_for_proof(result) ? "" : next_screen(result));
 }
 

@@ -57,6 +57,17 @@ void read_stream_keys(TomlTable& table, StreamFile& file) {
     table.complain("z_to_mm", "is not above z_from_mm: give the lower end of Z first");
 }
 
+/// What became of the cut stays with a machine, which has a name.
+void read_verification(TomlTable root, TomlTable table, JobFile& file) {
+  VerificationFile& verification = file.verification.emplace();
+  verification.stream.path = table.required_path("stream");
+  verification.table = table.required_path("table");
+  read_stream_keys(table, verification.stream);
+  const Job& job = file.job;
+  if (!job.target || job.target->kind == TargetKind::face)
+    root.complain("verification", "needs a [target] that is turned around: a cylinder or a cone");
+}
+
 JobReference read_reference(TomlTable table, const Sensor& sensor, double coverage_factor,
                             StreamFile& file) {
   JobReference reference;
@@ -302,6 +313,7 @@ JobFile read_job_toml(std::string_view content, const std::string& path) {
                   "several axes, a [machine]");
   check_runout_datums(root, job);
   read_cut(root, file, false);
+  if (auto table = root.maybe_table("verification")) read_verification(root, *table, file);
   for (const JobReference& reference : job.references) {
     if (!is_diagnosed(reference.fit.surface))
       root.complain("reference", "reference '" + reference.name + "' is a " +
@@ -323,7 +335,8 @@ Job read_target_toml(const std::string& path) {
   JobFile file{path};
   TomlTable root = document.root();
   // A whole job will do: what it says beyond the cut is not asked for here.
-  for (const char* key : {"name", "coverage_factor", "sensor", "reference", "header"})
+  for (const char* key :
+       {"name", "coverage_factor", "sensor", "reference", "header", "verification"})
     root.has(key);
   read_cut(root, file, true);
   document.finish();

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/feedback_files.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/counted.hpp"
+#include "correct/files/table_files.hpp"
+#include "format/file.hpp"
+#include "format/toml_header.hpp"
+#include "job/files/job_results.hpp"
+#include "job/machine_loop.hpp"
+#include "job/verified_cut.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double same_speed = 0.05;  // a lag then differs by as much of itself
+
+std::string surface_text(const char* surface, bool bore) {
+  return std::string(surface) + (bore ? ", bore" : ", shaft");
+}
+
+Json actuator_object(const Actuator& a) {
+  Json json{{"natural_frequency_hz", a.natural_frequency_hz},
+            {"damping", a.damping},
+            {"delay_s", a.delay_s},
+            {"sampling_hz", a.sampling_hz},
+            {"precompensate", a.precompensate},
+            {"stroke_mm", a.stroke_mm}};
+  json["response"] = list_of(a.measured, [](const ResponsePoint& point) {
+    return Json::array({point.frequency_hz, point.gain, point.phase_rad});
+  });
+  return json;
+}
+
+/// All that lag and gain hang on, but for the part.
+Json machine_object(const Job& job, const std::vector<ProbeStream>& streams) {
+  constexpr const char* kinds[] = {"cylinder", "cone", "face"};
+  const Json header = header_object(job.header);
+  const FitOptions& fit = job.references.front().fit;
+  return {{"machine", header.value("machine", "")},
+          {"probe", header.value("probe", "")},
+          {"reference", list_of(job.references,
+                                [](const JobReference& r) {
+                                  return surface_text(to_string(r.fit.surface), r.fit.bore);
+                                })},
+          {"target", surface_text(kinds[static_cast<int>(job.target->kind)], job.target->bore)},
+          {"axis", to_string(job.axis_of_cut)},
+          {"probing_speed_rpm", number(60.0 / two_pi * probing_speed(streams))},
+          {"sense", job.tool.sense > 0 ? "+c" : "-c"},
+          {"speed_rpm", job.tool.speed_rpm},
+          {"angle_from_probe_rad", job.tool.angle_from_probe_rad},
+          {"tool_height_mm", job.tool.height_mm},
+          {"actuator", actuator_object(job.actuator)},
+          {"ball_radius_mm", fit.ball_radius_mm},
+          {"known", list_of(fit.influences, [](const Influence& influence) {
+             return Json::array({info_of(influence.kind).key, influence.value, influence.u});
+           })}};
+}
+
+Json evidence_object(const LoopEvidence& e) {
+  return {{"information", e.information}, {"sum", e.sum}, {"squares", e.squares}};
+}
+
+LoopEvidence evidence_from(const Json& json) {
+  return {json.at("information"), json.at("sum"), json.at("squares")};
+}
+
+Json loop_object(double gain, double u_gain, double lag_rad, double u_lag_rad) {
+  return {{"gain", to_json(Estimate{gain, u_gain, "1", ""})},
+          {"lag", to_json(Estimate{lag_rad, u_lag_rad, "rad", ""})}};
+}
+
+Json response_object(const LoopResponse& r, int parts) {
+  Json json = loop_object(r.gain, r.u_gain, r.lag_rad, r.u_lag_rad);
+  json["parts"] = parts;
+  return json;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw InputError(path, why);
+}
+
+/// The feedback of a result as it was written.
+Json feedback_in(const std::string& path) {
+  const Json json = Json::parse(read_file(path), nullptr, false);
+  if (!json.is_object() || json.value("schema", Json()) != "trueaxis.run/2")
+    refuse(path, "is not a result of `trueaxis run`: give the result.json of the part before");
+  if (!json.contains("feedback"))
+    refuse(
+        path,
+        "does not hold what its cut showed: add [verification] to its job, and run it once more");
+  Json feedback = json.at("feedback");
+  const Json hash = feedback.is_object() ? feedback.value("hash", Json()) : Json();
+  if (feedback.is_object()) feedback.erase("hash");
+  if (!hash.is_string() || hash != content_hash(feedback.dump()))
+    refuse(path,
+           "was changed after TrueAxis wrote it, the hash of `feedback` differs: run the job "
+           "of that part once more");
+  if (feedback.at("verification").is_null())
+    refuse(path,
+           "is of a part that was not probed again after its cut: give the last one that was");
+  return feedback;
+}
+
+bool same(const std::string& key, const Json& before, const Json& now) {
+  if (key != "probing_speed_rpm" || !before.is_number() || !now.is_number()) return before == now;
+  return std::abs(now.get<double>() - before.get<double>()) <=
+         same_speed * std::abs(before.get<double>());
+}
+
+/// What differs between the machine of the part before and that of the job.
+std::vector<Diagnostic> differences(const std::string& job, const std::string& previous,
+                                    const Json& before, const Json& now) {
+  std::vector<Diagnostic> out;
+  for (const auto& [key, value] : now.items()) {
+    const Json earlier = before.value(key, Json());
+    if (!same(key, earlier, value))
+      out.push_back(
+          {job, 0, 0,
+           fmt::format("{} is {}, and {} in {}: lag and gain are then other ones; run the "
+                       "job without --previous",
+                       key, value.dump(), earlier.dump(), previous)});
+  }
+  return out;
+}
+
+std::string percent_and_degrees(const LoopResponse& r) {
+  return fmt::format("gain {:+.3g} ± {:.2g} %, lag {:+.3g} ± {:.2g}° (k = 2)", 100.0 * r.gain,
+                     200.0 * r.u_gain, r.lag_rad / rad_per_deg, 2.0 * r.u_lag_rad / rad_per_deg);
+}
+
+}  // namespace
+
+MachineFeedback feedback_before(const JobFile& file, const std::vector<ProbeStream>& streams,
+                                const std::string& previous) {
+  const Job& job = file.job;
+  if (!job.target || job.target->kind == TargetKind::face)
+    refuse(file.path, "has no [target] that is turned around: --previous is for a cut");
+  const Json machine = machine_object(job, streams);
+  if (machine.at("machine") == "")
+    refuse(file.path,
+           "does not name the machine, and lag and gain are those of one: add machine to [header]");
+  MachineFeedback out;
+  out.machine = machine.dump();
+  constexpr double per_rpm = two_pi / 60.0;
+  const double cutting = job.tool.speed_rpm * per_rpm, probing = probing_speed(streams);
+  out.prior = loop_prior(probing == 0.0 ? cutting : probing, cutting);
+  if (!previous.empty()) {
+    const Json before = feedback_in(previous);
+    std::vector<Diagnostic> wrong = differences(file.path, previous, before.at("machine"), machine);
+    out.streams = before.at("streams").get<std::vector<std::string>>();
+    for (const ProbeStream& stream : streams)
+      if (std::ranges::find(out.streams, stream.input_hash) != out.streams.end())
+        wrong.push_back({stream.source, 0, 0,
+                         "is of a part that " + previous +
+                             " has learned from already: a part does not come before itself; give "
+                             "the result of the part before"});
+    if (!wrong.empty()) throw InputError(std::move(wrong));
+    out.corrected = before.at("corrected_causes").get<std::vector<std::string>>();
+    const Json& evidence = before.at("evidence");
+    out.before = {evidence.at("parts"), evidence_from(evidence.at("gain")),
+                  evidence_from(evidence.at("lag"))};
+  }
+  out.after = out.before;
+  for (const ProbeStream& stream : streams) out.streams.push_back(stream.input_hash);
+  return out;
+}
+
+namespace {
+
+std::string trouble_words(LoopTrouble trouble, const LoopResponse& used,
+                          const LoopObservation& seen, const std::string& previous) {
+  const std::string stays =
+      percent_and_degrees({seen.gain, seen.lag_rad, seen.u_gain, seen.u_lag_rad});
+  switch (trouble) {
+    case LoopTrouble::none:
+      break;
+    case LoopTrouble::beyond_machines:
+      return "shows an error that no machine has: " + stays +
+             ". The servo or the probe is inverted, or C has another zero than at the references";
+    case LoopTrouble::wrong_sign:
+      return "shows the wrong sign: the error grew where the table should have shrunk it. The "
+             "table was corrected for " +
+             percent_and_degrees(used) + ", and what stays is " + stays +
+             ". Look for what inverts C, probe or servo between table and cut, and start anew "
+             "without --previous";
+    case LoopTrouble::changed:
+      return "shows that the machine changed since " + previous + ": what stays is " + stays +
+             ", beyond what the parts before allow. Start anew without --previous";
+  }
+  return "";
+}
+
+/// The table of the cut is the one that this job makes.
+void expect_table(const JobResult& result, const JobFile& file) {
+  const std::string& table = file.verification->table;
+  if (!has_table(result))
+    refuse(file.path, "does not make a table (" + std::string(to_string(result.verdict.decision)) +
+                          "): a verification needs the job of the cut");
+  if (read_file(table) != correction_csv(*result.correction))
+    refuse(table, "is not the table that this job makes: give the job, and --previous, of the cut");
+}
+
+}  // namespace
+
+void learn_from_cut(JobResult& result, const JobFile& file, const std::string& previous) {
+  MachineFeedback& feedback = *result.feedback;
+  const std::vector<std::string> corrected = corrected_causes(result);
+  if (feedback.before.parts > 0 && corrected != feedback.corrected)
+    refuse(file.path,
+           fmt::format("the diagnosis corrects the references for [{}], and in {} for [{}]: a lag "
+                       "or gain would count twice; state it in [sensor] of all jobs, or run this "
+                       "one without --previous",
+                       fmt::join(corrected, ", "), previous, fmt::join(feedback.corrected, ", ")));
+  feedback.corrected = corrected;
+  if (!file.verification) return;
+  const std::string& path = file.verification->stream.path;
+  expect_table(result, file);
+  const ProbeStream again = read_stream(file.verification->stream);
+  if (std::ranges::find(feedback.streams, again.input_hash) != feedback.streams.end())
+    refuse(path, "has the readings of a reference or of an earlier cut: give those of this cut");
+  const double before = probing_speed(result.streams), now = probing_speed({again});
+  if (before != 0.0 && now != 0.0 && std::abs(now - before) > same_speed * std::abs(before))
+    refuse(path,
+           fmt::format("was probed at {:.4g} rpm, and the references at {:.4g} rpm: probe the "
+                       "cut at their speed and in their sense",
+                       60.0 / two_pi * now, 60.0 / two_pi * before));
+  VerifiedCut cut;
+  try {
+    cut = verified_cut(result, again);
+  } catch (const Refusal& refusal) {
+    refuse(path, refusal.what());
+  }
+  const LoopTrouble trouble =
+      trouble_with(feedback.before, result.job.loop, cut.seen, feedback.prior);
+  // An error that no machine has may look like a cause in the probe, too.
+  if (trouble != LoopTrouble::beyond_machines && cut.corrected != corrected)
+    refuse(path, fmt::format("the axis of the cut is corrected for [{}], those of the references "
+                             "for [{}]: probe both by the same plan, or state what is known in "
+                             "[sensor]",
+                             fmt::join(cut.corrected, ", "), fmt::join(corrected, ", ")));
+  if (trouble != LoopTrouble::none)
+    refuse(path, trouble_words(trouble, result.job.loop, cut.seen, previous));
+  feedback.after = learned(feedback.before, result.job.loop, cut.seen);
+  feedback.seen = cut.seen, feedback.off_mm = cut.off_mm, feedback.U_off_mm = cut.U_off_mm;
+  feedback.streams.push_back(again.input_hash);
+}
+
+Json feedback_object(const JobResult& result) {
+  const MachineFeedback& f = *result.feedback;
+  Json json{{"machine", Json::parse(f.machine)},
+            {"corrected_causes", f.corrected},
+            {"corrected_for", response_object(result.job.loop, f.before.parts)}};
+  json["verification"] = nullptr;
+  if (f.seen) {
+    json["verification"] =
+        loop_object(f.seen->gain, f.seen->u_gain, f.seen->lag_rad, f.seen->u_lag_rad);
+    json["verification"]["off"] =
+        to_json(Estimate{f.off_mm, f.U_off_mm / result.verdict.coverage_factor, "mm", ""});
+  }
+  json["learned"] = response_object(response_of(f.after, f.prior), f.after.parts);
+  json["evidence"] = {{"parts", f.after.parts},
+                      {"gain", evidence_object(f.after.gain)},
+                      {"lag", evidence_object(f.after.lag)}};
+  json["streams"] = f.streams;
+  json["hash"] = content_hash(json.dump());
+  return json;
+}
+
+std::string feedback_screen(const JobResult& result) {
+  if (!result.feedback) return "";
+  const MachineFeedback& f = *result.feedback;
+  std::string text;
+  if (f.before.parts > 0)
+    text += fmt::format("loop   The table is corrected for what {} showed of the machine: {}\n",
+                        counted(static_cast<std::size_t>(f.before.parts), "part"),
+                        percent_and_degrees(result.job.loop));
+  if (f.seen)
+    text += fmt::format(
+        "cut    As probed again, its axis is {:.2g} ± {:.2g} µm off the target axis\n"
+        "loop   Learned from {}, for the next table: {}\n",
+        f.off_mm / mm_per_um, f.U_off_mm / mm_per_um,
+        counted(static_cast<std::size_t>(f.after.parts), "part"),
+        percent_and_degrees(response_of(f.after, f.prior)));
+  return text;
+}
+
+}  // namespace trueaxis

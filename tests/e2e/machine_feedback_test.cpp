@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// From part to part: `run --previous` corrects the next table for what the verification of the
+// parts before showed of the machine. The lathe of the test is integrated in time; every part has
+// its own clamping and lobes.
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+
+#include "support/command_fixture.hpp"
+#include "support/shop_lathe.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+constexpr double z_low = 42.0, z_high = 60.0, cut_radius_mm = 28.0;
+
+ShopLathe::Part drawn_part(std::mt19937_64& random) {
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  ShopLathe::Part part;
+  part.place_mm = std::polar(between(0.1, 0.2), between(0.0, 2.0 * std::numbers::pi));
+  part.slope = std::polar(between(1e-4, 5e-4), between(0.0, 2.0 * std::numbers::pi));
+  part.lobes_mm = between(1e-3, 3e-3), part.lobes_phase_rad = between(0.0, 2.0 * std::numbers::pi);
+  return part;
+}
+
+class MachineFeedback : public CommandTest {
+ protected:
+  std::string job(int k, bool verified, const std::string& more = "") const {
+    const std::string n = std::to_string(k);
+    return "[header]\nmachine = \"lathe 7\"\npart = \"" + n +
+           "\"\n[[reference]]\nname = \"seat\"\nstream = \"part_" + n +
+           ".csv\"\nsurface = \"cylinder\"\n[target]\nsurface = \"cylinder\"\nradius_mm = 28\n"
+           "z_start_mm = 60\nz_end_mm = 42\ncoaxiality_tolerance_um = 100\n[cut]\nspeed_rpm = 600\n"
+           "sense = \"+c\"\nfeed_mm_per_rev = 0.5\ninterpolation = \"linear\"\n" +
+           (verified ? "[verification]\nstream = \"cut_" + n + ".csv\"\ntable = \"part_" + n +
+                           "/table.csv\"\n"
+                     : "") +
+           more;
+  }
+  static std::string previous(int k) {
+    return k == 0 ? "" : " --previous cut_" + std::to_string(k) + "/result.json";
+  }
+  /// The part is probed, and its table made with what the parts before told.
+  CommandStreams plan(int k, const ShopLathe& lathe, const ShopLathe::Part& part,
+                      const std::string& arguments) {
+    const std::string n = std::to_string(k);
+    file("part_" + n + ".csv", lathe.probed_part(part, 0.0, 40.0, 2 * k));
+    file("part_" + n + ".toml", job(k, false));
+    return command("run part_" + n + ".toml -o part_" + n + arguments);
+  }
+  /// It is cut with the table and probed again.
+  ShopLathe::Cut cut(int k, const ShopLathe& lathe) {
+    const std::string n = std::to_string(k);
+    ShopLathe::Cut out =
+        lathe.turned(read_text(folder_ / ("part_" + n + "/table.csv")), cut_radius_mm);
+    file("cut_" + n + ".csv", lathe.probed_cut(out, 43.0, 59.0, cut_radius_mm, 2 * k + 1));
+    file("cut_" + n + ".toml", job(k, true));
+    return out;
+  }
+  CommandStreams verify(int k, const std::string& arguments) {
+    const std::string n = std::to_string(k);
+    return command("run cut_" + n + ".toml -o cut_" + n + arguments);
+  }
+  /// The first `parts` of a shop, each learned from.
+  void make(int parts, const ShopLathe& lathe, std::mt19937_64& random) {
+    for (int k = 1; k <= parts; ++k) {
+      const CommandStreams planned = plan(k, lathe, drawn_part(random), previous(k - 1));
+      ASSERT_EQ(planned.exit_code, 0) << planned.out << planned.err;
+      cut(k, lathe);
+      const CommandStreams verified = verify(k, previous(k - 1));
+      ASSERT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+    }
+  }
+};
+
+/// The axis of the cut over that of the part, at the middle of the cut: 1 is a true one.
+std::complex<double> ratio(const ShopLathe::Cut& cut, const ShopLathe::Part& part) {
+  const double z = 0.5 * (z_low + z_high);
+  return cut.axis_at(z) / part.axis_at(z);
+}
+
+/// u of the ratio because of the noise of the reference's readings alone. Its axis has N readings
+/// over 40 mm, and the cut is 31 mm from their middle.
+double u_of_ratio(const ShopLathe& lathe, const ShopLathe::Part& part) {
+  const double readings = 41.3 * 36.7, lever = 31.0 / (40.0 / std::sqrt(12.0));
+  return lathe.noise_mm * std::sqrt(2.0 / readings) * std::hypot(1.0, lever) /
+         std::abs(part.axis_at(0.5 * (z_low + z_high)));
+}
+
+TEST_F(MachineFeedback, OfTwentyPartsTheErrorThatStaysFallsBelowAThirdAndDoesNotOscillate) {
+  constexpr int parts = 20;
+  std::printf("seed 11\n");
+  std::mt19937_64 random(11);
+  const ShopLathe lathe;
+  std::complex<double> first;
+  double u_first = 0.0;
+  for (int k = 1; k <= parts; ++k) {
+    SCOPED_TRACE("part " + std::to_string(k));
+    const ShopLathe::Part part = drawn_part(random);
+    const CommandStreams planned = plan(k, lathe, part, previous(k - 1));
+    ASSERT_EQ(planned.exit_code, 0) << planned.out << planned.err;
+    const std::complex<double> off = std::log(ratio(cut(k, lathe), part));
+    const double u = u_of_ratio(lathe, part);
+    if (k == 1) first = off, u_first = u;
+    const CommandStreams verified = verify(k, previous(k - 1));
+    ASSERT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+    if (k == 1) {
+      EXPECT_GT(std::abs(first), 0.05) << "the machine was hardly off: the test tests nothing";
+      continue;
+    }
+    // Four standard deviations of both parts' axes: missed by 19 parts in 1 of 800 seeds.
+    const double noise = 4.0 * std::hypot(u, u_first);
+    if (k > 3) {
+      EXPECT_LT(std::abs(off), std::abs(first) / 3.0);
+    }
+    EXPECT_LT(std::abs(off), noise);
+    // No overshoot: along the first error nothing of the other sign but noise.
+    EXPECT_GT((off / first).real() * std::abs(first), -noise);
+    // What came with the parts before (clamping, lobes of three) is in neither number of the
+    // machine nor in the table.
+    const auto got = result("cut_" + std::to_string(k) + "/result.json");
+    const auto& learned = got.at("feedback").at("learned");
+    EXPECT_EQ(learned.at("parts"), k);
+    EXPECT_NEAR(learned.at("gain").at("value").get<double>(), first.real(), 4.0 * u_first);
+    EXPECT_NEAR(learned.at("lag").at("value").get<double>() * std::numbers::pi / 180.0,
+                first.imag(), 4.0 * u_first);
+    const std::string table = read_text(folder_ / ("part_" + std::to_string(k) + "/table.csv"));
+    EXPECT_TRUE(table.starts_with("# schema: trueaxis.correction/1\n"));
+    EXPECT_TRUE(contains(table, "# machine_loop: the table is corrected for gain"));
+    for (const auto& harmonic : got.at("correction").at("harmonics"))
+      EXPECT_NE(harmonic.at("order"), 3) << harmonic;
+  }
+}
+
+/// Every refusal has the place, and what mends it.
+TEST_F(MachineFeedback, RefusesAResultThatIsNotOfThePartBeforeOnThisMachine) {
+  std::mt19937_64 random(5);
+  const ShopLathe lathe;
+  make(1, lathe, random);
+  file("part_2.csv", lathe.probed_part(drawn_part(random), 0.0, 40.0, 4));
+  const auto expect = [&](const std::string& text, const std::string& previous_result,
+                          const std::string& why) {
+    SCOPED_TRACE(why);
+    file("part_2.toml", text);
+    const CommandStreams done = command("run part_2.toml -o out --previous " + previous_result);
+    EXPECT_EQ(done.exit_code, 3) << done.out;
+    EXPECT_TRUE(contains(done.err, why)) << done.err;
+    EXPECT_FALSE(there("out"));
+  };
+  const auto with = [&](const std::string& before, const std::string& after) {
+    std::string text = job(2, false);
+    const std::size_t at = text.find(before);
+    EXPECT_NE(at, std::string::npos);
+    return text.replace(at, before.size(), after);
+  };
+  const std::string last = "cut_1/result.json", plain = job(2, false);
+  expect(plain, "part_1/result.json", "add [verification] to its job");
+  expect(plain, "part_2.csv", "is not a result of `trueaxis run`");
+  expect(with("lathe 7", "lathe 8"), last, "machine is \"lathe 8\", and \"lathe 7\" in cut_1");
+  expect(with("machine = \"lathe 7\"\n", ""), last, "add machine to [header]");
+  expect(with("\"+c\"", "\"-c\""), last, "sense is \"-c\", and \"+c\"");
+  expect(with("speed_rpm = 600", "speed_rpm = 500"), last, "speed_rpm is 500.0, and 600.0");
+  expect(job(2, false, "[actuator]\nnatural_frequency_hz = 500\n"), last, "actuator is {");
+  expect(job(2, false, "[sensor]\nlag_ms = 2\nu_lag_ms = 0.1\n"), last, "known is [[");
+  expect(with("surface = \"cylinder\"\nradius",
+              "surface = \"cone\"\nhalf_angle_deg = 1\nopens = \"+z\"\nradius"),
+         last, "target is \"cone, shaft\", and \"cylinder, shaft\"");
+  expect(with("part_2.csv", "part_1.csv"), last, "a part does not come before itself");
+  expect(with("part_2.csv", "cut_1.csv"), last, "a part does not come before itself");
+  std::string changed = read_text(folder_ / last);
+  const std::size_t at = changed.find("\"information\"");
+  changed[changed.find('.', at) - 1] ^= 1;
+  file("changed.json", changed);
+  expect(plain, "changed.json", "was changed after TrueAxis wrote it");
+  file("part_2.toml", plain);
+  ASSERT_EQ(command("run part_2.toml -o part_2 --previous " + last).exit_code, 0);
+  file("part_3.csv", lathe.probed_part(drawn_part(random), 0.0, 40.0, 6));
+  file("part_3.toml", job(3, false));
+  const CommandStreams not_verified =
+      command("run part_3.toml -o part_3 --previous part_2/result.json");
+  EXPECT_EQ(not_verified.exit_code, 3);
+  EXPECT_TRUE(contains(not_verified.err, "was not probed again after its cut")) << not_verified.err;
+}
+
+TEST_F(MachineFeedback, RefusesAVerificationThatIsNotOfThisCut) {
+  std::mt19937_64 random(6);
+  ShopLathe lathe;
+  make(1, lathe, random);
+  ASSERT_EQ(plan(2, lathe, drawn_part(random), previous(1)).exit_code, 0);
+  const ShopLathe::Cut done = cut(2, lathe);
+  const auto expect = [&](const std::string& arguments, const std::string& why) {
+    SCOPED_TRACE(why);
+    const CommandStreams verified = verify(2, arguments);
+    EXPECT_EQ(verified.exit_code, 3) << verified.out;
+    EXPECT_TRUE(contains(verified.err, why)) << verified.err;
+    EXPECT_FALSE(there("cut_2/result.json"));
+  };
+  expect("", "part_2/table.csv: is not the table that this job makes");  // without --previous
+  const std::string readings = read_text(folder_ / "cut_2.csv");
+  file("cut_2.csv", read_text(folder_ / "part_2.csv"));
+  expect(previous(1), "has the readings of a reference or of an earlier cut");
+  lathe.probing_rpm = 200.0;
+  file("cut_2.csv", lathe.probed_cut(done, 43.0, 59.0, cut_radius_mm, 5));
+  expect(previous(1), "was probed at 200 rpm, and the references at 120 rpm");
+  file("cut_2.csv", readings);
+  EXPECT_EQ(verify(2, previous(1)).exit_code, 0);
+}
+
+TEST_F(MachineFeedback, RefusesAWrongSignByName) {
+  std::mt19937_64 random(7);
+  const ShopLathe lathe;
+  make(1, lathe, random);
+  const ShopLathe::Part part = drawn_part(random);
+  ASSERT_EQ(plan(2, lathe, part, "").exit_code, 0);
+  const ShopLathe::Cut without = cut(2, lathe);
+  ASSERT_EQ(plan(2, lathe, part, previous(1)).exit_code, 0);
+  ShopLathe::Cut wrong = cut(2, lathe);
+  // The correction has the other sign.
+  for (std::size_t i = 0; i < wrong.radius_mm.size(); ++i)
+    wrong.radius_mm[i] = 2.0 * without.radius_mm[i] - wrong.radius_mm[i];
+  file("cut_2.csv", lathe.probed_cut(wrong, 43.0, 59.0, cut_radius_mm, 5));
+  const CommandStreams verified = verify(2, previous(1));
+  EXPECT_EQ(verified.exit_code, 3) << verified.out;
+  EXPECT_TRUE(contains(verified.err, "cut_2.csv: shows the wrong sign")) << verified.err;
+  EXPECT_TRUE(contains(verified.err, "start anew without --previous")) << verified.err;
+}
+
+TEST_F(MachineFeedback, RefusesAMachineThatChangedAndAnInvertedServoByName) {
+  std::mt19937_64 random(8);
+  ShopLathe lathe;
+  make(1, lathe, random);
+  ASSERT_EQ(plan(2, lathe, drawn_part(random), previous(1)).exit_code, 0);
+  lathe.servo_lag_s = 2e-3;
+  cut(2, lathe);
+  const CommandStreams changed = verify(2, previous(1));
+  EXPECT_EQ(changed.exit_code, 3) << changed.out;
+  EXPECT_TRUE(contains(changed.err, "shows that the machine changed since cut_1/result.json"))
+      << changed.err;
+  lathe.servo_gain = -1.0;
+  cut(2, lathe);
+  const CommandStreams inverted = verify(2, previous(1));
+  EXPECT_EQ(inverted.exit_code, 3) << inverted.out;
+  EXPECT_TRUE(contains(inverted.err, "The servo or the probe is inverted")) << inverted.err;
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
