@@ -4,7 +4,20 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
-pkg_check_modules(INTERCHANGE REQUIRED IMPORTED_TARGET libzip pugixml hdf5 matio libmd)
+set(TRUEAXIS_HDF5_DEFAULT ON)
+if(WIN32)  # libraries are static, and Debian has no HDF5
+  set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
+  set(TRUEAXIS_STATIC_ZLIB zlib)
+  set(TRUEAXIS_HDF5_DEFAULT OFF)
+endif()
+pkg_check_modules(INTERCHANGE REQUIRED IMPORTED_TARGET libzip ${TRUEAXIS_STATIC_ZLIB} pugixml libmd)
+option(TRUEAXIS_HDF5 "Read HDF5 and MATLAB files" ${TRUEAXIS_HDF5_DEFAULT})
+if(TRUEAXIS_HDF5)
+  pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5 matio)
+  list(FILTER TRUEAXIS_FILES EXCLUDE REGEX "/interchange/no_hdf5\\.cpp$")
+else()
+  list(FILTER TRUEAXIS_FILES EXCLUDE REGEX "/interchange/(hdf5|matlab)\\.cpp$")
+endif()
 
 file(GLOB TRUEAXIS_ASSETS CONFIGURE_DEPENDS src/report/*.js src/report/*.css src/report/*.html)
 # Words, JSON and pages take as long to optimise as to compile and are written once a run; what reads and writes whole
@@ -22,7 +35,7 @@ foreach(target trueaxis_words trueaxis_lib)
   target_include_directories(${target} PRIVATE src)
   target_compile_definitions(${target} PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${target} PUBLIC trueaxis_core PRIVATE $<BUILD_INTERFACE:trueaxis_flags> Eigen3::Eigen
-    nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus fmt::fmt PkgConfig::XXHASH PkgConfig::INTERCHANGE)
+    nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus fmt::fmt PkgConfig::XXHASH PkgConfig::INTERCHANGE $<TARGET_NAME_IF_EXISTS:PkgConfig::HDF5>)
   trueaxis_compile_rooms_as_one(${target})
 endforeach()
 target_sources(trueaxis_lib PRIVATE $<TARGET_OBJECTS:trueaxis_words>)
@@ -62,18 +75,26 @@ add_library(trueaxis_cli STATIC ${TRUEAXIS_CLI})
 set_target_properties(trueaxis_cli PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_include_directories(trueaxis_cli PUBLIC src)
 target_compile_definitions(trueaxis_cli PUBLIC TRUEAXIS_VERSION="${PROJECT_VERSION}")
-target_link_libraries(trueaxis_cli PUBLIC trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog)
+target_link_libraries(trueaxis_cli PUBLIC trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt)
 target_compile_options(trueaxis_cli PUBLIC $<$<CONFIG:Release>:-O1>)
 trueaxis_compile_rooms_as_one(trueaxis_cli)
 add_executable(trueaxis src/cli/main.cpp)
-target_link_libraries(trueaxis PRIVATE trueaxis_cli)
+target_link_libraries(trueaxis PRIVATE trueaxis_cli glog::glog)
 trueaxis_link_core_first(trueaxis)
+if(WIN32)
+  enable_language(RC)
+  target_sources(trueaxis PRIVATE src/platform/trueaxis.rc)
+  find_library(TRUEAXIS_MATHEMATICS mathematics REQUIRED)  # in place of those of Windows
+  target_link_libraries(trueaxis PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,${TRUEAXIS_MATHEMATICS}>")
+endif()
 # What is made of its tables of options is installed beside it.
-add_custom_command(TARGET trueaxis POST_BUILD
-  COMMAND trueaxis completion bash > "${PROJECT_BINARY_DIR}/trueaxis.bash"
-  COMMAND trueaxis completion zsh > "${PROJECT_BINARY_DIR}/_trueaxis"
-  COMMAND trueaxis man > "${PROJECT_BINARY_DIR}/trueaxis.1"
-  COMMAND gzip -9nc "${PROJECT_BINARY_DIR}/trueaxis.1" > "${PROJECT_BINARY_DIR}/trueaxis.1.gz" VERBATIM)
+if(NOT CMAKE_CROSSCOMPILING)
+  add_custom_command(TARGET trueaxis POST_BUILD
+    COMMAND trueaxis completion bash > "${PROJECT_BINARY_DIR}/trueaxis.bash"
+    COMMAND trueaxis completion zsh > "${PROJECT_BINARY_DIR}/_trueaxis"
+    COMMAND trueaxis man > "${PROJECT_BINARY_DIR}/trueaxis.1"
+    COMMAND gzip -9nc "${PROJECT_BINARY_DIR}/trueaxis.1" > "${PROJECT_BINARY_DIR}/trueaxis.1.gz" VERBATIM)
+endif()
 
 # The same sweeps on several machines, where Open MPI is installed.
 find_package(MPI QUIET COMPONENTS CXX)
@@ -81,6 +102,6 @@ if(MPI_CXX_FOUND)
   file(GLOB TRUEAXIS_MPI CONFIGURE_DEPENDS src/mpi/*.cpp)
   add_executable(trueaxis-mpi ${TRUEAXIS_MPI})
   target_compile_definitions(trueaxis-mpi PRIVATE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-  target_link_libraries(trueaxis-mpi PRIVATE trueaxis_cli MPI::MPI_CXX)
+  target_link_libraries(trueaxis-mpi PRIVATE trueaxis_cli glog::glog MPI::MPI_CXX)
   trueaxis_link_core_first(trueaxis-mpi)
 endif()

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glog/logging.h>
 
+#include "cli/dropped.hpp"
 #include "cli/guarded.hpp"
 #include "cli/program.hpp"
+#include "platform/terminal.hpp"
 
 int main(int argc, char** argv) {
+  using namespace trueaxis;
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
-  return trueaxis::cli::guarded([&] {
-    return trueaxis::cli::run_program({argv + 1, argv + argc});
-  });
+  const std::vector<std::string> words = platform::begin_program(argc, argv);
+  const bool dropped = cli::are_files(words);
+  const int code =
+      dropped ? cli::run_files(words) : cli::guarded([&] { return cli::run_program(words); });
+  if (dropped || words.empty()) cli::keep_window_open();
+  return code;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "cli/terminal.hpp"
+#include "platform/terminal.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -23,7 +23,7 @@ Progress::Progress(std::size_t before, std::size_t to_do, std::string unit)
     : before_(before),
       to_do_(to_do),
       unit_(std::move(unit)),
-      on_terminal_(::isatty(STDERR_FILENO) == 1),
+      on_terminal_(platform::is_terminal(platform::Stream::error)),
       begun_(Clock::now()),
       shown_(begun_) {}
 

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -11,6 +8,7 @@
 
 #include "cli/terminal.hpp"
 #include "format/text_layout.hpp"
+#include "platform/terminal.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -18,14 +16,12 @@ namespace {
 constexpr std::size_t text_column = 7;  // where the text of a line begins after its word
 
 std::size_t width_of_terminal() {
-  winsize size{};
-  if (isatty(STDOUT_FILENO) == 0 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 ||
-      size.ws_col == 0)
-    return layout::columns;
-  return std::clamp<std::size_t>(size.ws_col, 50, 140);
+  const auto columns = platform::columns_of(platform::Stream::output);
+  return columns ? std::clamp<std::size_t>(*columns, 50, 140) : layout::columns;
 }
 
-bool in_colour() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
+bool on_terminal() { return platform::is_terminal(platform::Stream::output); }
+bool in_colour() { return on_terminal() && std::getenv("NO_COLOR") == nullptr; }
 
 /// The escape code of a verdict: green for a go, red for a stop, yellow for what lies between.
 const char* colour_of(const std::string& line) {
@@ -77,7 +73,7 @@ void print_screen(const std::string& text) {
     const std::string head = headed ? line.substr(0, text_column) : std::string();
     const std::string text_of_line = with_units_bound(headed ? line.substr(text_column) : line);
     // A script takes the first line as it is.
-    const std::size_t to = first && isatty(STDOUT_FILENO) == 0 ? text.size() : width;
+    const std::size_t to = first && !on_terminal() ? text.size() : width;
     std::string out = layout::wrapped(head, text_of_line, to);
     std::ranges::replace(out, bound, ' ');
     if (first && in_colour()) {

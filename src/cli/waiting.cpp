@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -10,17 +8,13 @@
 
 #include "cli/terminal.hpp"
 #include "format/text_layout.hpp"
+#include "platform/terminal.hpp"
 
 namespace trueaxis::cli {
 namespace {
 
 constexpr auto quiet = std::chrono::seconds(2);
 constexpr auto between = std::chrono::milliseconds(500);
-
-std::size_t columns_of_error() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
 
 /// `text` in `to` characters at most, without half a character of UTF-8.
 std::string cut_to(std::string text, std::size_t to) {
@@ -34,7 +28,7 @@ std::string cut_to(std::string text, std::size_t to) {
 }  // namespace
 
 Waiting::Waiting(std::string doing) : doing_(std::move(doing)) {
-  if (::isatty(STDERR_FILENO) != 1) return;
+  if (!platform::is_terminal(platform::Stream::error)) return;
   try {
     thread_ = std::thread([this] { show(); });
   } catch (const std::system_error&) {
@@ -50,7 +44,7 @@ void Waiting::show() {
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     const std::string behind = fmt::format(", {:.0f} s", seconds);
-    const std::size_t room = columns_of_error() - 1;
+    const std::size_t room = platform::columns_of(platform::Stream::error).value_or(80) - 1;
     fmt::print(stderr, "\r\033[K{}{}",
                cut_to(doing_, room > behind.size() ? room - behind.size() : 0), behind);
     std::fflush(stderr);

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
-#include <poll.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -10,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "cli/commands.hpp"
@@ -22,12 +19,15 @@
 #include "live/files/arriving_text.hpp"
 #include "live/files/live_text.hpp"
 #include "measure/files/stream_csv_write.hpp"
+#include "platform/arriving_bytes.hpp"
+#include "platform/terminal.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::cli {
 namespace {
 
+using platform::ArrivingBytes;
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds between_pictures{150};
 
@@ -42,52 +42,37 @@ struct WatchArguments {
   }
 };
 
-volatile std::sig_atomic_t stopped = 0;
-constexpr int ending[] = {SIGINT, SIGTERM, SIGHUP};  // what has arrived is written and evaluated
+volatile std::sig_atomic_t stopped = 0;  // what has arrived is written and evaluated
 
 /// Where the readings come from: a growing file, standard input, or halsampler.
 class Source {
  public:
-  explicit Source(const WatchArguments& options) : idle_s_(options.idle_s) {
+  explicit Source(const WatchArguments& options)
+      : bytes_(options.hal ? ArrivingBytes::of_program("halsampler")
+                           : ArrivingBytes::of_file(options.run.stream.path)),
+        idle_s_(options.idle_s) {
     const std::string& path = options.run.stream.path;
-    if (options.hal) {
-      sampler_ = ::popen("halsampler", "r");
-      descriptor_ = sampler_ == nullptr ? -1 : ::fileno(sampler_);
-    } else {
-      descriptor_ = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    }
-    if (descriptor_ < 0) throw InputError(path, "cannot be opened: give a file that is there");
+    if (!bytes_.is_open()) throw InputError(path, "cannot be opened: give a file that is there");
     grows_ = !options.hal && path != "-" && std::filesystem::is_regular_file(path);
   }
-  ~Source() {
-    if (sampler_ != nullptr)
-      ::pclose(sampler_);
-    else if (descriptor_ != STDIN_FILENO)
-      ::close(descriptor_);
-  }
-  Source(const Source&) = delete;
-  Source& operator=(const Source&) = delete;
 
   /// Waits at most a fifth of the time between two pictures; false: there is no more.
   bool read(ArrivingText& text) {
-    pollfd waits{descriptor_, POLLIN, 0};
-    if (::poll(&waits, 1, 40) <= 0) return stopped == 0;
+    if (!bytes_.wait(40)) return stopped == 0;
     static char buffer[1 << 16];
-    const ssize_t got = ::read(descriptor_, buffer, sizeof buffer);
-    if (got > 0) {
-      text.add({buffer, static_cast<std::size_t>(got)});
+    if (const std::size_t got = bytes_.read(buffer, sizeof buffer); got > 0) {
+      text.add({buffer, got});
       last_ = Clock::now();
     } else if (!grows_ || Clock::now() - last_ > std::chrono::duration<double>(idle_s_)) {
       return false;
     } else {
-      ::usleep(20000);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     return stopped == 0;
   }
 
  private:
-  std::FILE* sampler_ = nullptr;
-  int descriptor_ = -1;
+  ArrivingBytes bytes_;
   bool grows_ = false;
   double idle_s_;
   Clock::time_point last_ = Clock::now();
@@ -149,7 +134,7 @@ class Watch {
     const std::optional<double> wanted = options_.wanted_U_mm();
     if (options_.json_lines)
       std::cout << live_json_line(state, wanted) << std::flush;
-    else if (::isatty(STDOUT_FILENO) != 0)
+    else if (platform::is_terminal(platform::Stream::output))
       std::cout << (pictures_++ > 0 ? "\x1b[20A\x1b[J" : "") << live_picture(state, wanted)
                 << std::flush;
     const std::string alarm = live_alarm(state);
@@ -203,8 +188,7 @@ int execute(WatchArguments& options) {
   Watch watch(options);
   {
     Source source(options);
-    for (const int signal : ending) std::signal(signal, [](int) { stopped = 1; });
-    std::signal(SIGPIPE, SIG_IGN);  // nobody reads the pictures: the recording goes on
+    platform::on_stop([](int) { stopped = 1; });
     Clock::time_point due = Clock::now();
     while (source.read(text)) {
       if (Clock::now() < due) continue;
@@ -212,7 +196,7 @@ int execute(WatchArguments& options) {
       watch.update(text);
     }
     watch.update(text);
-    for (const int signal : ending) std::signal(signal, SIG_DFL);
+    platform::on_stop(nullptr);
   }
   if (text.lost() > 0)
     std::cerr << "lost   halsampler reports " << text.lost()

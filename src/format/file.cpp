@@ -2,8 +2,6 @@
 #include "format/file.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "platform/files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -29,7 +28,7 @@ ByteSource::ByteSource(const std::string& path) : path_(path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) throw InputError(path, "is a folder: name a file");
-  own_.reset(std::fopen(path.c_str(), "rbe"));
+  own_.reset(platform::open_to_read(path));
   if (!own_) cannot_be_read(path);
   if (!std::filesystem::is_regular_file(status)) return;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -64,32 +63,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<FileIdentity> of_file(const struct stat& status) {
-  if (!S_ISREG(status.st_mode)) return std::nullopt;
-  return FileIdentity{status.st_dev, status.st_ino, {}};
+using Status = std::optional<platform::FileStatus>;
+
+std::optional<FileIdentity> of_file(const Status& status) {
+  if (!status || !status->regular) return std::nullopt;
+  return FileIdentity{status->device, status->number, {}};
 }
 
-/// The identity of a file, or of a place for one; "-" is the open file `descriptor`.
-std::optional<FileIdentity> identity(const std::string& path, int descriptor) {
-  struct stat status {};
-  if (path == "-")
-    return ::fstat(descriptor, &status) == 0 ? of_file(status) : std::optional<FileIdentity>();
+/// The identity of a file, or of a place for one.
+std::optional<FileIdentity> of_place(const std::string& path) {
   const std::string place = link_target(path);
-  if (::stat(place.c_str(), &status) == 0) return of_file(status);
+  if (const Status status = platform::status_of(place)) return of_file(status);
   const fs::path folder = fs::path(place).parent_path();
-  if (::stat(folder.empty() ? "." : folder.c_str(), &status) != 0)
-    return FileIdentity{0, 0, fs::absolute(place).lexically_normal().string()};
-  return FileIdentity{status.st_dev, status.st_ino, fs::path(place).filename().string()};
+  const Status status = platform::status_of(folder.empty() ? "." : folder.string());
+  if (!status) return FileIdentity{0, 0, fs::absolute(place).lexically_normal().string()};
+  return FileIdentity{status->device, status->number, fs::path(place).filename().string()};
 }
 
 }  // namespace
 
 std::optional<FileIdentity> identity_of_input(const std::string& path) {
-  return identity(path, STDIN_FILENO);
+  return path == "-" ? of_file(platform::status_of_input()) : of_place(path);
 }
 
 std::optional<FileIdentity> identity_of_output(const std::string& path) {
-  return identity(is_standard_output(path) ? "-" : path, STDOUT_FILENO);
+  return is_standard_output(path) ? of_file(platform::status_of_output()) : of_place(path);
 }
 
 std::string link_target(const std::string& path) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/types.h>
-
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -38,8 +37,7 @@ std::string content_hash(std::string_view bytes);
 /// What tells a file from every other, however it is called: its device and its number there. If it
 /// does not exist yet, those of its folder, and its name.
 struct FileIdentity {
-  dev_t device = 0;
-  ino_t number = 0;
+  std::uint64_t device = 0, number = 0;
   std::string name;
   bool operator==(const FileIdentity&) const = default;
 };

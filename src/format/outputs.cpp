@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/outputs.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -15,6 +10,7 @@
 #include <utility>
 
 #include "format/file.hpp"
+#include "format/path_text.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -25,23 +21,21 @@ namespace {
 
 constexpr const char* part = ".part";  // and the number of the process that writes it
 
-bool lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; }
+using platform::LockableFile;
 
-/// Makes a new file next to a place, locks it and appends to `path` what makes its name new; -1: it
-/// cannot be made. Where files cannot be locked it is made all the same.
-int made_beside(std::string& path) {
-  path += part + std::to_string(::getpid());
+/// Makes a new file next to a place, locks it and appends to `path` what makes its name new; none:
+/// it cannot be made. Where files cannot be locked it is made all the same.
+LockableFile made_beside(std::string& path) {
+  path += part + platform::process_id();
   for (;;) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0 && errno != EEXIST) return -1;
-    if (file < 0) {
+    LockableFile file = LockableFile::make(path);
+    if (!file.is_open() && errno != EEXIST) return file;
+    if (!file.is_open()) {
       path += '_';
       continue;
     }
-    struct stat status {};
-    const bool taken = !lock(file) && errno == EWOULDBLOCK;
-    if (!taken && ::fstat(file, &status) == 0 && status.st_nlink > 0) return file;
-    ::close(file);  // another process took it for left over
+    // Otherwise another process took it for left over.
+    if (file.lock() != LockableFile::Lock::taken && file.is_there()) return file;
   }
 }
 
@@ -54,33 +48,30 @@ OutputFile::OutputFile(const std::string& path)
   const fs::file_status status = fs::status(place_, error);
   if (fs::is_directory(status)) fail("it is a folder");
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    file_.open(place_, std::ios::binary);
+    file_.open(fs::path(place_), std::ios::binary);
   } else {
     beside_ = place_;
     lock_ = made_beside(beside_);
-    if (lock_ >= 0) file_.open(beside_, std::ios::binary);
+    if (lock_.is_open()) file_.open(fs::path(beside_), std::ios::binary);
   }
   if (file_.is_open()) return;
   const std::string why = std::strerror(errno);
-  if (lock_ >= 0) {
-    fs::remove(beside_, error);
-    ::close(lock_);
-  }
+  if (lock_.is_open()) fs::remove(beside_, error);
   beside_.clear();
   fail(why);
 }
 
 OutputFile::~OutputFile() {
   std::error_code ignored;
+  file_.close();  // an open file cannot be removed everywhere
   if (!beside_.empty()) fs::remove(beside_, ignored);
-  if (lock_ >= 0) ::close(lock_);
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
       place_(std::move(other.place_)),
       beside_(std::exchange(other.beside_, {})),
-      lock_(std::exchange(other.lock_, -1)),
+      lock_(std::move(other.lock_)),
       file_(std::move(other.file_)) {}
 
 void OutputFile::write(std::string_view text) {
@@ -129,7 +120,7 @@ std::string why_not_in(fs::path folder) {
     return cannot("its folder " + folder.string() +
                   " does not exist, and TrueAxis does not create it");
   if (!fs::is_directory(status)) return cannot(folder.string() + " is not a folder");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+  if (!platform::may_write_in(folder.string()))
     return cannot("its folder: " + std::string(std::strerror(errno)));
   return "";
 }
@@ -164,7 +155,7 @@ void Outputs::may_write_in_folder(const std::string& name, const std::string& sc
 }
 
 std::string Outputs::in_folder(const std::string& name) const {
-  return (fs::path(folder_) / name).string();
+  return path_text(fs::path(folder_) / name);
 }
 
 /// Why the folder of the results cannot take them; empty: it can.
@@ -207,7 +198,7 @@ std::string Outputs::objection(const Place& place) const {
   }
   if (!fs::is_regular_file(status)) return "";
   if (std::string why = why_not_in(folder); !why.empty()) return why;
-  if (::access(target.c_str(), W_OK) != 0) return cannot(std::strerror(errno));
+  if (!platform::may_write(target)) return cannot(std::strerror(errno));
   if (force_ || fs::file_size(target, error) == 0) return "";
   if (place.begins && read_file(target) == *place.begins) return "";
   if (place.begins) return "is there and may hold your changes: name another place, or use --force";
@@ -268,10 +259,8 @@ void Outputs::remove_left_over(const Place& place) const {
     const bool ours = entry.file_size(error) == 0 ||
                       (!place.schema.empty() && schema_of_file(path) == place.schema);
     if (is_read || !ours) continue;
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) continue;
-    if (lock(file)) fs::remove(path, error);
-    ::close(file);
+    LockableFile file = LockableFile::existing(path);
+    if (file.is_open() && file.lock() == LockableFile::Lock::held) fs::remove(path, error);
   }
 }
 

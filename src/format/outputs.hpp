@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "platform/files.hpp"
+
 namespace trueaxis {
 
 /// A file that is whole or not there: it is written next to its place and renamed by `commit`; what
@@ -30,7 +32,8 @@ class OutputFile {
  private:
   [[noreturn]] void fail(const std::string& why) const;
   std::string path_, place_, beside_;
-  int lock_ = -1;  ///< held on the file next to the place: nobody writes one that is not locked
+  platform::LockableFile
+      lock_;  ///< held on the file next to the place: nobody writes one that is not locked
   std::ofstream file_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -69,7 +70,7 @@ std::string schema_in(std::string_view head) {
 }
 
 std::string schema_of_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in(std::filesystem::path(path), std::ios::binary);
   std::array<char, 512> head{};
   in.read(head.data(), head.size());
   return schema_in({head.data(), static_cast<std::size_t>(in.gcount())});

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <filesystem>
 #include <map>
 #include <sstream>
 #include <tuple>
@@ -14,6 +13,7 @@
 #include "base/text.hpp"
 #include "format/file.hpp"
 #include "format/nearest_key.hpp"
+#include "format/path_text.hpp"
 #include "format/toml_words.hpp"
 #include "format/units.hpp"
 
@@ -243,8 +243,7 @@ std::optional<std::string> TomlTable::maybe_path(std::string_view key) {
     state_->wrong(state_->find(key), std::string("holds a control character: ") + backslash_advice);
     return std::nullopt;
   }
-  const std::filesystem::path folder = std::filesystem::path(state_->document->path).parent_path();
-  return (folder / *name).lexically_normal().string();
+  return path_next_to(state_->document->path, *name);
 }
 
 std::string TomlTable::required_path(std::string_view key) {

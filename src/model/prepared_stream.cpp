@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/prepared_stream.hpp"
 
-#include <sys/mman.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <new>
 
 #include "math/sincos.hpp"
+#include "platform/memory.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -21,14 +19,12 @@ constexpr std::size_t cache_line = 64;
 ColumnBuffer::ColumnBuffer(std::size_t size) : size_(size) {
   const std::size_t alignment = size * sizeof(double) >= huge_page ? huge_page : cache_line;
   const std::size_t bytes = (size * sizeof(double) + alignment - 1) / alignment * alignment;
-  void* memory = std::aligned_alloc(alignment, bytes == 0 ? alignment : bytes);
+  void* memory = platform::allocate_aligned(alignment, bytes == 0 ? alignment : bytes);
   if (memory == nullptr) throw std::bad_alloc();
-  if (alignment == huge_page)
-    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: without it, small pages
   data_.reset(static_cast<double*>(memory));
 }
 
-void ColumnBuffer::Free::operator()(double* data) const { std::free(data); }
+void ColumnBuffer::Free::operator()(double* data) const { platform::free_aligned(data); }
 
 struct PreparedStream::Angles {
   ColumnBuffer cosine, sine;

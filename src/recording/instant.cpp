@@ -32,13 +32,13 @@ std::optional<double> instant_s(std::string_view text) {
     days_s = 86400.0 * static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
   }
   const auto hours = number_before(text, ':');
-  const auto minutes = hours ? number_before(text, ':') : std::nullopt;
+  const int minutes = hours ? number_before(text, ':').value_or(-1) : -1;
   double seconds = 0.0;
   const char decimal = text.find(',') == std::string_view::npos ? '.' : ',';
-  if (!minutes || *minutes > 59 || !recorded_number(text, decimal, seconds) || seconds < 0.0 ||
+  if (minutes < 0 || minutes > 59 || !recorded_number(text, decimal, seconds) || seconds < 0.0 ||
       seconds >= 61.0)
     return {};
-  return days_s + 3600.0 * *hours + 60.0 * *minutes + seconds;
+  return days_s + 3600.0 * *hours + 60.0 * minutes + seconds;
 }
 
 }  // namespace trueaxis

@@ -55,5 +55,3 @@ trueaxis_sweep_js_begin:
     .incbin "report/sweep_charts.js"
     .incbin "report/sweep.js"
 trueaxis_sweep_js_end:
-
-    .section .note.GNU-stack, "", @progbits

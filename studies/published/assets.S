@@ -5,5 +5,3 @@
 trueaxis_published_js_begin:
     .incbin "studies/published/published.js"
 trueaxis_published_js_end:
-
-    .section .note.GNU-stack, "", @progbits

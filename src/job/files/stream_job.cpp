@@ -14,7 +14,7 @@ namespace trueaxis {
 
 bool is_job(const std::string& path) {
   if (path == "-" || path.ends_with(".toml")) return true;
-  std::ifstream file(path);
+  std::ifstream file(std::filesystem::path(path), std::ios::binary);
   for (std::string line; std::getline(file, line);) {
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;

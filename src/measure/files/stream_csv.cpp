@@ -169,8 +169,8 @@ void read_lines(ByteSource& source, LineReader& lines, StreamingHash& hash) {
   while (const std::size_t got = source.read(buffer + kept, chunk_bytes)) {
     hash.add(buffer + kept, got);
     const std::size_t filled = kept + got;
-    const auto* last = static_cast<const char*>(::memrchr(buffer + kept, '\n', got));
-    const std::size_t whole = last == nullptr ? 0 : static_cast<std::size_t>(last + 1 - buffer);
+    const std::size_t last = std::string_view(buffer + kept, got).rfind('\n');
+    const std::size_t whole = last == std::string_view::npos ? 0 : kept + last + 1;
     if (!lines.block(buffer, buffer + whole)) return;
     kept = filled - whole;
     if (kept > longest_line_bytes) return lines.too_long();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "base/diagnostics.hpp"
 #include "calibrate/files/measurement_csv.hpp"
 #include "compensate/program_axes.hpp"
 #include "format/file.hpp"
+#include "format/path_text.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
 #include "job/machine/files/machine_job_files.hpp"
@@ -30,7 +30,7 @@ std::vector<std::string> paths(TomlTable& table, const char* key, const std::str
   std::vector<std::string> list = table.texts(key);
   for (std::string& name : list) {
     if (name.empty()) table.complain(key, "holds an empty name: name a file");
-    name = (std::filesystem::path(job).parent_path() / name).lexically_normal().string();
+    name = path_next_to(job, name);
   }
   for (std::size_t i = 0; i < list.size(); ++i)
     if (std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), list[i]) !=

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/sweep/files/sweep_journal.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -18,6 +15,7 @@
 
 #include "base/build_id.hpp"
 #include "format/file.hpp"
+#include "platform/files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -90,28 +88,20 @@ std::string_view whole_record(std::string_view bytes, std::size_t& size) {
 
 struct SweepJournal::Impl {
   std::string path;
-  int file = -1;
+  platform::LockableFile file;
   std::vector<BlockResult> finished;
-
-  ~Impl() {
-    if (file >= 0) ::close(file);
-  }
 
   [[noreturn]] void fail(const char* what) const {
     throw InputError(path, std::string("cannot be ") + what + " (" + std::strerror(errno) +
                                "): name a folder that can be written with -o");
   }
 
-  void write_all(std::string_view bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t done = ::write(file, bytes.data(), bytes.size());
-      if (done < 0 && errno != EINTR) fail("written");
-      if (done > 0) bytes.remove_prefix(static_cast<std::size_t>(done));
-    }
+  void append(std::string_view bytes) {
+    if (!file.append(bytes)) fail("written");
   }
 
-  void lock() const {
-    if (::flock(file, LOCK_EX | LOCK_NB) == 0) return;
+  void lock() {
+    if (file.lock() == platform::LockableFile::Lock::held) return;
     throw InputError(path,
                      "another process is running this sweep: wait for it, or choose another "
                      "folder with -o");
@@ -139,16 +129,16 @@ struct SweepJournal::Impl {
       }
     }
     const bool begun = at >= head.size();
-    if (::ftruncate(file, begun ? static_cast<off_t>(at) : 0) != 0) fail("written");
-    if (!begun) write_all(head);
+    if (!file.cut_to(begun ? at : 0)) fail("written");
+    if (!begun) append(head);
   }
 };
 
 SweepJournal::SweepJournal(const std::string& folder, const Sweep& sweep)
     : impl_(std::make_unique<Impl>()) {
   impl_->path = (std::filesystem::path(folder) / "journal.bin").string();
-  impl_->file = ::open(impl_->path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (impl_->file < 0) impl_->fail("opened");
+  impl_->file = platform::LockableFile::for_append(impl_->path);
+  if (!impl_->file.is_open()) impl_->fail("opened");
   impl_->lock();
   impl_->read(sweep);
 }
@@ -157,7 +147,7 @@ SweepJournal::~SweepJournal() = default;
 
 std::vector<BlockResult> SweepJournal::take_finished() { return std::move(impl_->finished); }
 
-void SweepJournal::append(const BlockResult& result) { impl_->write_all(record_of(result)); }
+void SweepJournal::append(const BlockResult& result) { impl_->append(record_of(result)); }
 
 std::string encode(const BlockResult& result) {
   std::string bytes;

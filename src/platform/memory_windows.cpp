@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <malloc.h>
+
+#include "platform/memory.hpp"
+
+namespace trueaxis::platform {
+
+void* allocate_aligned(std::size_t alignment, std::size_t bytes) {
+  return ::_aligned_malloc(bytes, alignment);
+}
+
+void free_aligned(void* memory) { ::_aligned_free(memory); }
+
+}  // namespace trueaxis::platform
