@@ -31,7 +31,7 @@ TEST_F(Dropped, OfSeveralFilesEachIsRunAndTheWorstExitCodeIsGiven) {
   EXPECT_FALSE(there("empty_result"));
 }
 
-// A file may have the name of a command, and a word that is no file is still a command's.
+// A file may have the name of a command, and a word without such a file is a command.
 TEST_F(Dropped, ACommandStaysACommand) {
   file("effects", "of the user");
   const CommandStreams listed = command("effects");
