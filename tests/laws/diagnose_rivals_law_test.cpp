@@ -76,5 +76,32 @@ TEST(DiagnosedRivals, WidenTheUncertaintyOfTheAxis) {
   EXPECT_GT(too_few, 0) << "nothing to widen: the test cannot fail";
 }
 
+// A sensor that bends by c₂v² about a place r of the range read has the gain −2c₂r/range in its
+// middle, which moves the axis by 2c₂r: 8 µm here, less than U of a gain of which nothing but
+// |r| < 1 is known, 2 · 2c₂/√3 = 11.5 µm. Noise moves it by 0.1 µm.
+TEST(DiagnosedRivals, ASensorThatBendsAboutAnotherPlaceLeavesTheAxisWithinU) {
+  constexpr double e_mm = 0.6, quadratic_mm = 5e-3;
+  for (const double place : {-0.8, 0.8}) {
+    Scenario scenario = probed_part(PartKind::cylinder);
+    scenario.seed = first_seed;
+    scenario.part.x0_mm = e_mm, scenario.part.y0_mm = scenario.part.l = scenario.part.m = 0.0;
+    scenario.part.d_mm = 0.0, scenario.noise.sigma_mm = 0.001;
+    scenario.effects = {
+        virtual_lathe::Effect{"probe.nonlinearity",
+                              {{"quadratic_mm", quadratic_mm},
+                               {"range_mm", e_mm},
+                               {"reference_mm", scenario.part.radius_mm + place * e_mm}}}};
+    DiagnoseOptions options;
+    options.fit.surface = SurfaceKind::cylinder;
+    options.threads = 1;
+    const ProbeStream stream = simulate(scenario);
+    const Diagnosis diagnosis = diagnose(stream, options);
+    const Estimate x = diagnosis.extended.parameters[0].estimate;
+    const double error_mm = std::abs(x.value - e_mm);
+    EXPECT_NEAR(error_mm, 2.0 * quadratic_mm * std::abs(place), 1e-3) << "the bend moves the axis";
+    EXPECT_LT(error_mm, 2.0 * x.u);
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

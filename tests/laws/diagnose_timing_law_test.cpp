@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <string>
 
 #include "study/bound/quantities.hpp"
@@ -75,6 +76,40 @@ INSTANTIATE_TEST_SUITE_P(Causes, DiagnosedTiming,
                          ::testing::Values(Case{"probe.latency", "delay_s"},
                                            Case{"probe.lag", "time_constant_s"}),
                          [](const auto& of) { return std::string(of.param.effect).substr(6); });
+
+// 10 ms turn the fastest pass by 35°, where a lag that fits in the first order is off by
+// 1 − cos 35° = 18 % of the eccentricity. A slip at the change of speed must not explain that: the
+// delay alone is named, and the axis is within four of its u.
+TEST(LargeDelay, IsNoSlipWhereTheSpeedChanges) {
+  constexpr double seconds = 0.01;
+  for (const std::uint64_t seed : {9100U, 9101U, 9102U}) {
+    std::cout << "seed " << seed << '\n';
+    Scenario scenario = probed_part(PartKind::cylinder);
+    scenario.seed = seed;
+    scenario.part.x0_mm = 0.2, scenario.part.y0_mm = 0.0, scenario.noise.sigma_mm = 0.001;
+    PlannedPass pass = scenario.plan.passes[0];
+    pass.readings_per_revolution = 40.0;
+    scenario.plan.passes.clear();
+    for (const double rpm : {240.0, 300.0, 590.0}) {
+      pass.speed_rpm = rpm;
+      scenario.plan.passes.push_back(pass);
+    }
+    scenario.effects = {{"probe.latency", {{"delay_s", seconds}}}};
+    DiagnoseOptions options;
+    options.fit.surface = SurfaceKind::cylinder;
+    options.threads = 1;
+    const ProbeStream stream = simulate(scenario);
+    const Diagnosis diagnosis = diagnose(stream, options);
+    ASSERT_EQ(diagnosis.findings.size(), 1U);
+    EXPECT_EQ(diagnosis.findings[0].members(), std::vector<std::string>{"probe.latency"});
+    const std::vector<double> truth =
+        study::true_values(scenario, study::probed_length(stream), SurfaceKind::cylinder);
+    const study::Estimated found = study::estimated(diagnosis.extended);
+    const std::vector<study::Quantity> names = study::quantities(SurfaceKind::cylinder);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      EXPECT_LT(std::abs(found.value[i] - truth[i]), 4.0 * found.u[i]) << names[i].name;
+  }
+}
 
 }  // namespace
 }  // namespace trueaxis::testing

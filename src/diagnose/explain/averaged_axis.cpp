@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "diagnose/explain/axis_interval.hpp"
+#include "diagnose/explain/bend_slope.hpp"
 #include "diagnose/explain/form_class.hpp"
+#include "diagnose/explain/not_found.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/local_forms.hpp"
@@ -26,50 +28,6 @@ constexpr double nothing = 1e-2;        // of u: a smaller shift does not count
 constexpr std::size_t most_forms = 48;  // shapes of a local form that are averaged over
 constexpr double finer[] = {0.06, 0.02, 0.007};  // steps about the one that was found
 
-/// A step that was found in some of its parameters had the others too: what of them the readings do
-/// not show enters U.
-void add_rest_of_steps(const Problem& problem, const std::vector<Hypothesis>& terms,
-                       std::vector<Hypothesis>& list) {
-  for (const Hypothesis& step : terms) {
-    if (!step.effect || step.free.empty() || !is_step(step.effect->term)) continue;
-    std::vector<SearchForm> forms = step.effect->search.forms;
-    SearchForm all{.degrees = 1};  // but for a turn, which is a shift of where the part is
-    const auto parameters = linear_parameters(step.effect->term, step.shape);
-    for (std::size_t j = 0; j < parameters.size(); ++j)
-      if (parameters[j].name != "turn") all.free.push_back(j);
-    forms.push_back(std::move(all));
-    for (const SearchForm& form : forms) {
-      if (problem.resolution.degrees < form.degrees) continue;
-      Hypothesis rest = step;
-      rest.free.clear();
-      for (const std::size_t j : form.free)
-        if (std::ranges::find(step.free, j) == step.free.end()) rest.free.push_back(j);
-      if (!rest.free.empty()) list.push_back(std::move(rest));
-    }
-  }
-}
-
-/// Effects that might be there and were not found, seen or not, but for those that the cut meets as
-/// the probe did. Harmonics of free order do not count: they are not neighbours of the axis, which
-/// is of order one. What is stated of an effect holds whatever the cause is.
-std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypothesis>& terms,
-                                  const std::vector<AmbiguousFinding>& findings) {
-  std::vector<Hypothesis> list = preset_causes(problem);
-  std::erase_if(list, [&](const Hypothesis& h) {
-    const Effect& effect = *h.effect;
-    const auto is_it = [&](const Hypothesis& other) { return other.effect == &effect; };
-    if (has_free_order(effect) || effect.same_in_cut || std::ranges::any_of(terms, is_it))
-      return true;
-    if (effect.stated) return effect.stated->u == 0.0;
-    return std::ranges::any_of(findings, [&](const AmbiguousFinding& f) {
-      return std::ranges::any_of(f.found.members,
-                                 [&](const Candidate& c) { return is_it(c.hypothesis); });
-    });
-  });
-  add_rest_of_steps(problem, terms, list);
-  return list;
-}
-
 /// The residual that no cause explains, mm.
 double unexplained_rms(const Joint& joint) {
   double sum = 0.0;
@@ -89,6 +47,7 @@ class Averaging {
         findings_(findings),
         local_(local_shapes(problem, joint)),
         beside_(not_found(problem, joint.terms, findings)),
+        slope_(slope_beside(problem, joint.terms)),
         wide_(problem, joint.equations.autoregression(), all_of(joint), terms_),
         gram_(wide_.equations.total()),
         n_(static_cast<Eigen::Index>(wide_.equations.base().size())) {
@@ -110,6 +69,7 @@ class Averaging {
     out.shift = named_.coefficients.head(n_) - wide_.base();
     std::size_t next = terms_;
     for (const AmbiguousFinding& finding : findings_) of_finding(finding, next, out);
+    for (std::size_t t = 0; t < terms_; ++t) of_slope(t, out);
     for (const LocalShapes& shapes : local_) of_local_form(shapes, next, out);
     if (problem_.point.base
             .face) {  // for a face the named model stays, with what rival causes would do
@@ -165,6 +125,7 @@ class Averaging {
     for (const LocalShapes& local : local_)
       all.insert(all.end(), local.shapes.begin(), local.shapes.end());
     all.insert(all.end(), beside_.begin(), beside_.end());
+    if (slope_) all.push_back(*slope_);
     return all;
   }
 
@@ -246,6 +207,22 @@ class Averaging {
                     Eigen::MatrixXd::Zero(n_, n_)});
     tell("", named, list.back(), out);
     add(list, nullptr, named, out);
+  }
+
+  /// The slope of a sensor that bends, as far as that is what was named.
+  void of_slope(std::size_t term, AveragedAxis& out) const {
+    if (!slope_ || !bends_about_a_place(wide_.terms[term])) return;
+    const Columns& own = wide_.places.back();
+    const Weighed bend = weigh_term(term, project(gram_, wide_.besides(term)));
+    const Weighed slope =
+        infer::weigh(slope_prior(wide_.terms[term], bend), project(gram_, named_.columns), own,
+                     wide_.equations.count());
+    const Eigen::MatrixXd per_unit = base_per_unit(wide_.places.size() - 1, named_);
+    Alternative named{1.0, -per_unit * slope.mean,
+                      per_unit * slope.covariance * per_unit.transpose()};
+    for (const AmbiguousFinding& f : findings_)
+      if (f.term == term) named.probability = f.found.probability;
+    add({named}, slope_->effect, wide_.terms[term].id(), out);
   }
 
   /// The shapes are alternatives to each other, and take the place of the one that was found.
@@ -340,6 +317,7 @@ class Averaging {
   const std::vector<AmbiguousFinding>& findings_;
   std::vector<LocalShapes> local_;
   std::vector<Hypothesis> beside_;
+  std::optional<Hypothesis> slope_;  ///< of a sensor that bends
   Joint wide_;
   Eigen::MatrixXd gram_;  ///< with what the sizes of the terms may plausibly be
   Eigen::Index n_;

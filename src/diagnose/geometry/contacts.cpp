@@ -88,14 +88,12 @@ void Reach::add(const PointPart& at) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double sensed = at.sensed[i];
     widen(side[at.rear[i] != 0], {sensed, sensed});
-    outward += at.rear[i] ? -sensed : sensed;
   }
   widen(x, range_of(at.x)), widen(s, range_of(at.s));
 }
 void Reach::add(const Reach& other) {
   widen(x, other.x), widen(s, other.s);
   for (const std::size_t k : {0u, 1u}) widen(side[k], other.side[k]);
-  outward += other.outward;
 }
 
 namespace {

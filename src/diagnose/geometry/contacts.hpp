@@ -25,7 +25,6 @@ inline void widen(Extent& range, const Extent& by) {
 /// How far the readings go.
 struct Reach {
   Extent x = nowhere, s = nowhere, side[2] = {nowhere, nowhere};  ///< of what is sensed
-  double outward = 0.0;                                           ///< sum
 
   void add(const PointPart& at);
   void add(const Reach& other);

@@ -70,9 +70,8 @@ LinearisationPoint linearised(const ProbeStream& stream, LinearisationPoint poin
   point.x_mm = reach.x;
   point.outward_mm = reach.side[0];
   widen(point.outward_mm, {-reach.side[1].high, -reach.side[1].low});
-  point.reference_x_mm = reach.outward / static_cast<double>(point.size());
-  point.range_x_mm = std::max({point.outward_mm.high - point.reference_x_mm,
-                               point.reference_x_mm - point.outward_mm.low, least_range_mm});
+  point.reference_x_mm = 0.5 * (point.outward_mm.low + point.outward_mm.high);
+  point.range_x_mm = std::max(0.5 * point.outward_mm.length(), least_range_mm);
   for (const Clamping& c : clampings) {
     point.reindexed |= c.reindex_rad != clampings.front().reindex_rad;
     point.jogged |= c.x_jog_mm != clampings.front().x_jog_mm;

@@ -189,9 +189,33 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
   }
 }
 
+namespace {
+
+/// The fit without terms whose test does not pass about what was found, the least of them first.
+/// What a lag leaves of a delay in the second order looks like a slip where the speed changes,
+/// until the lag is a delay.
+std::unique_ptr<RelinearisedFit> fit_of_what_passes(const IdealModel& ideal, Model& model) {
+  for (;;) {
+    auto made = std::make_unique<RelinearisedFit>(ideal, model);
+    if (model.terms.size() < 2) return made;
+    const Joint& joint = made->joint();
+    const infer::Fitted in{joint.equations.total(), joint.equations.base(), joint.places,
+                           joint.equations.count()};
+    std::vector<double> log_p;
+    for (std::size_t t = 0; t < model.terms.size(); ++t) log_p.push_back(in.log_p(t));
+    const auto least = std::ranges::max_element(log_p);
+    if (model.family.p_value(std::exp(*least)) < ideal.problem.false_alarm) return made;
+    const auto at = least - log_p.begin();
+    model.terms.erase(model.terms.begin() + at);
+    model.p_values.erase(model.p_values.begin() + at);
+  }
+}
+
+}  // namespace
+
 std::unique_ptr<RelinearisedFit> relinearise(const IdealModel& ideal, Model& model,
                                              std::optional<Timing>& timing) {
-  auto best = std::make_unique<RelinearisedFit>(ideal, model);
+  auto best = fit_of_what_passes(ideal, model);
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     const Effect* effect = model.terms[t].effect;
     if (!effect || effect->second_order_twin.empty()) continue;
@@ -200,13 +224,16 @@ std::unique_ptr<RelinearisedFit> relinearise(const IdealModel& ideal, Model& mod
         std::ranges::find(ideal.problem.effects, effect->second_order_twin, &Effect::id);
     expects(twin != ideal.problem.effects.end(), "a twin is a cause of the same streams");
     other.terms[t] = of_effect(**twin, {.time_constant_s = 0.0});
-    auto rival = std::make_unique<RelinearisedFit>(ideal, other);
-    if (!size_prior(other.terms[t]).allows(rival->joint().of(t))) continue;  // a lag that leads
+    auto rival = fit_of_what_passes(ideal, other);
+    const auto its = static_cast<std::size_t>(
+        std::ranges::find(other.terms, *twin, &Hypothesis::effect) - other.terms.begin());
+    if (its == other.terms.size() || !size_prior(other.terms[its]).allows(rival->joint().of(its)))
+      continue;  // a lag that leads
     const auto rows = static_cast<double>(best->joint().equations.count());
     double ratio = rows * std::log(rival->joint().solution.rss / best->joint().solution.rss);
     if (ratio < 0.0) {
       std::swap(best, rival), std::swap(model, other);
-      ratio = -ratio;
+      ratio = -ratio, t = its;
     }
     timing = {t, ratio};
   }
