@@ -79,6 +79,16 @@ struct Gain : Explained {
   Estimate coaxiality_after;   ///< mm, from the final axis
 };
 
+/// A run of the probe, C and Z linear in time.
+struct ProbingRun {
+  double from_mm = 0.0, to_mm = 0.0;  ///< Z
+  double turns = 0.0;                 ///< signed like C; 0: at standstill
+  double seconds = 0.0;
+  double readings = 0.0;
+  bool rear = false;   ///< from the rear side
+  double c_rad = 0.0;  ///< where C starts
+};
+
 struct NextMeasurement {
   std::string plan;  ///< code; empty: nothing to separate, or why_not
   std::string what;
@@ -135,6 +145,8 @@ struct Diagnosis : Conclusion {
   Gain gain;
   NextMeasurement next;
   std::vector<Separating> plans;  ///< every candidate measurement, best first
+  /// One per plan: what was measured, and what is added; empty: it needs a hand at chuck or slide.
+  std::vector<std::vector<ProbingRun>> runs;
 
   double z_mid_mm = 0.0, z_half_mm = 1.0;                     ///< u = (z − z_mid)/z_half
   std::vector<double> effect_mm;                              ///< of all terms, one per reading

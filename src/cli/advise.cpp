@@ -11,6 +11,7 @@
 #include "cli/guarded.hpp"
 #include "cli/machine_diagnosed.hpp"
 #include "cli/options.hpp"
+#include "cli/probing_program.hpp"
 #include "cli/results.hpp"
 #include "cli/stream_options.hpp"
 #include "cli/terminal.hpp"
@@ -26,6 +27,7 @@
 #include "job/files/job_words.hpp"
 #include "job/files/stream_job.hpp"
 #include "job/machine/files/machine_job_files.hpp"
+#include "study/planning/probing_plan.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/job.hpp"
 
@@ -37,6 +39,7 @@ struct AdviseArguments {
   MachineDiagnosed machine;
   StreamOptions stream;
   AssociationOptions association;
+  ProbingOption program;
   Results results;
   double false_alarm = DiagnoseOptions{}.false_alarm;
   bool verbose = false, check = false;
@@ -145,6 +148,34 @@ int advise_job(const CLI::App& command, AdviseArguments& options) {
   return worst;
 }
 
+/// `--program` of a stream: the control that is to measure it, with `--limits` and `--output`.
+void take_control(AdviseArguments& options, Outputs& outputs) {
+  const std::vector<std::string> known = ProbingOption::controls();
+  options.program.control = options.machine.program;
+  if (options.program.asked() && std::ranges::find(known, options.program.control) == known.end())
+    throw CLI::ValidationError(
+        "--program", options.program.control +
+                         " is not a control (linuxcnc, fanuc, siemens, heidenhain); the program of "
+                         "a part goes with --machine");
+  if (options.program.asked() != options.results.asked("--output"))
+    throw CLI::RequiredError(options.program.asked() ? "--output" : "--program");
+  options.program.read(outputs);
+  const FitOptions fit = options.association.chosen();
+  const std::string why = nc::objection_to_part(fit.bore, fit.surface == SurfaceKind::plane);
+  if (options.program.asked() && !why.empty()) throw InputError(options.stream.path, why);
+}
+
+/// Writes the next measurement as a program; what the screen says of it.
+std::string write_program(const AdviseArguments& options, const Diagnosis& diagnosis,
+                          Outputs& outputs) {
+  if (!options.program.asked()) return "";
+  const std::string& place = options.results["--output"];
+  const nc::ProbingProgram program =
+      options.program.write_first(study::probing_plans(diagnosis), place);
+  outputs.write(place, program.text);
+  return "\nProgram\n  " + ProbingOption::line(program, place);
+}
+
 /// Options for the one would have no effect on the other.
 bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
   const bool machine = !options.machine.machine.machine.empty();
@@ -172,8 +203,17 @@ void add_advise(CLI::App* command, int& exit_code) {
   options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
   options->machine.add_to(*command);
+  command->get_option("--program")
+      ->description(
+          "control whose program measures the next plan (linuxcnc, fanuc, siemens, "
+          "heidenhain); --machine: program on which every cause and the uncertainty of "
+          "the tip are weighed")
+      ->type_name("CONTROL|FILE")
+      ->group("Options");
+  options->program.add_limits_to(*command);
   options->results.add(*command, "-o,--output", "trueaxis.measurement_plan",
-                       "--machine: positions of the next measurement (CSV), to be filled in");
+                       "with --program its program; --machine: positions of the next measurement "
+                       "(CSV), to be filled in");
   options->results.add(*command, "--json", "trueaxis.machine_diagnosis",
                        "diagnosis, for a job of every reference (JSON); - prints it");
   add_force(*command, options->results.force);
@@ -199,8 +239,10 @@ void add_advise(CLI::App* command, int& exit_code) {
     }
     if (surface->count() == 0) throw CLI::RequiredError("--surface");
     options->results.say("--json", "trueaxis.diagnosis");
+    options->results.say("--output", "trueaxis.probing_program");
     Outputs outputs(options->results.force);
     outputs.reads(options->stream.path);
+    take_control(*options, outputs);
     options->results.name_to(outputs);
     outputs.check();
     const ProbeStream stream = options->stream.read();
@@ -214,7 +256,9 @@ void add_advise(CLI::App* command, int& exit_code) {
     const Diagnosis diagnosis = advise(stream, options->association.chosen(), options->false_alarm,
                                        options->results.printed());
     options->results.write(outputs, "--json", [&] { return diagnosis_json(diagnosis); });
+    const std::string program = write_program(*options, diagnosis, outputs);
     outputs.commit();
+    if (!options->results.printed()) std::cout << program;
     exit_code = exit_code_of_advice(diagnosis);
   });
 }

@@ -210,7 +210,7 @@ int MachineDiagnosed::advise(const Results& results) const {
 void expect_one_stream(const CLI::App& command, std::size_t streams) {
   if (streams > 1)
     throw CLI::ValidationError("stream", "one stream, or several measurements with --machine");
-  expect_none(command, {"--errors", "--sign", "--large-errors", "--program", "--output"},
+  expect_none(command, {"--errors", "--sign", "--large-errors"},
               "is for a machine: name it with --machine");
 }
 

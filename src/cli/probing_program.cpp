@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "base/counted.hpp"
@@ -33,6 +35,10 @@ std::string log_name(const std::string& output) {
 
 }  // namespace
 
+std::vector<std::string> ProbingOption::controls() {
+  return {"linuxcnc", "fanuc", "siemens", "heidenhain"};
+}
+
 void ProbingOption::add_limits_to(CLI::App& command) {
   command.add_option("--limits", limits_file_, "what the program must keep to (TOML)")
       ->type_name("FILE");
@@ -41,7 +47,7 @@ void ProbingOption::add_limits_to(CLI::App& command) {
 }
 
 void ProbingOption::add_to(CLI::App& command) {
-  add_option(command, "--program", control, one_of({"linuxcnc", "fanuc", "siemens", "heidenhain"}),
+  add_option(command, "--program", control, one_of(controls()),
              "control whose probing program is written");
   add_limits_to(command);
 }
@@ -59,6 +65,29 @@ void ProbingOption::read(Outputs& outputs) {
 nc::ProbingProgram ProbingOption::write(nc::ProbingPlan plan, const std::string& output) const {
   return nc::write_probing(plan, limits_, control_of(control), log_name(output), dry_run_,
                            limits_file_);
+}
+
+nc::ProbingProgram ProbingOption::write_first(const std::vector<nc::ProbingPlan>& plans,
+                                              const std::string& output) const {
+  std::optional<InputError> first;
+  for (const nc::ProbingPlan& plan : plans) {
+    // It reads at standstill, so the sense of C and a pass at standstill tell nothing.
+    const auto turns_like_the_first = [&](const nc::ProbingPass& pass) {
+      return pass.turns * plan.passes.front().turns > 0.0;
+    };
+    if (limits_.kind == nc::ProbeKind::touch &&
+        !std::ranges::all_of(plan.passes, turns_like_the_first))
+      continue;
+    try {
+      return write(plan, output);
+    } catch (const InputError& error) {
+      if (!first) first = error;
+    }
+  }
+  if (first) throw InputError(*first);
+  throw Refusal(
+      "no measurement that control and probe can make alone tells more: there is no program to "
+      "write");
 }
 
 std::string ProbingOption::line(const nc::ProbingProgram& program, const std::string& output) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/results.hpp"
 #include "format/outputs.hpp"
@@ -18,12 +19,17 @@ class ProbingOption {
   /// The rest without `--program`, for a command in which that word means another program too.
   void add_limits_to(CLI::App& command);
   std::string control;
+  static std::vector<std::string> controls();
 
   bool asked() const { return !control.empty(); }
   /// Names what is read. @throws InputError with all that is wrong with the limits
   void read(Outputs& outputs);
   /// @throws InputError with every reason why the plan cannot be driven
   nc::ProbingProgram write(nc::ProbingPlan plan, const std::string& output) const;
+  /// The same for the first of several that the probe at hand can read.
+  /// @throws InputError with the reasons of the first if it can read none
+  nc::ProbingProgram write_first(const std::vector<nc::ProbingPlan>& plans,
+                                 const std::string& output) const;
   /// A line of the screen: where the program went, and what it takes.
   static std::string line(const nc::ProbingProgram& program, const std::string& output);
 

@@ -101,7 +101,7 @@ class Watch {
       if (live_.kept().size() < fewest) return;
       constexpr std::size_t enough_to_choose = 5000;
       const FitOptions fit = fit_of(options_, live_.sample(enough_to_choose));
-      const LiveState state = live_state(live_, fit, known_);
+      const LiveState state = live_state(live_, fit, known_, ++looks_);
       show(state);
       if (state.fit.axis_known() && !state.deaf) known_ = state.fit;
     } catch (const Refusal&) {     // not one surface yet, or never: `run` says which
@@ -151,6 +151,7 @@ class Watch {
   FitResult known_;  ///< the last one with an axis
   std::string alarm_;
   int pictures_ = 0, refused_ = 0;
+  std::size_t looks_ = 0;
   bool enough_ = false, wrong_ = false;
 };
 

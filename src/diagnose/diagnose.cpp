@@ -59,6 +59,7 @@ void add_advice(const IdealModel& ideal, const RelinearisedFit& refit, const Mod
   }
   out.next = std::move(advice.next);
   out.plans = std::move(advice.plans);
+  out.runs = std::move(advice.runs);
 }
 
 /// Lobes that even angles see as eccentricity (Eq. 315).

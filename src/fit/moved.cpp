@@ -38,9 +38,10 @@ double U_of_axis_mm(const FitResult& fit) {
 }
 
 std::optional<CentreStep> moved_in_pass(const ProbeStream& stream, std::span<const double> left_mm,
-                                        const FitResult& fit) {
+                                        const FitResult& fit, double by_chance) {
   if (!fit.axis_known() || left_mm.size() != stream.size()) return {};
-  const auto step = find_centre_step(turn_centres(stream, without_lone_outliers(left_mm)));
+  const auto step =
+      find_centre_step(turn_centres(stream, without_lone_outliers(left_mm)), by_chance);
   return step && step->size_mm > U_of_axis_mm(fit) ? step : std::nullopt;
 }
 

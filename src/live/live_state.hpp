@@ -25,7 +25,8 @@ struct LiveState {
 
 /// @param before the last fit with a known axis, if there is one: a deaf probe spoils the next
 /// @throws InputError where the stream cannot be one of this surface
-LiveState live_state(const LiveStream& stream, const FitOptions& options, const FitResult& before);
+LiveState live_state(const LiveStream& stream, const FitOptions& options, const FitResult& before,
+                     std::size_t look = 1);
 
 /// Whether the readings of the last half revolution do not follow the axis: it would move them by
 /// ten times their noise or more, and they move by less than a quarter of that.

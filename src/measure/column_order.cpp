@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <set>
 
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -36,7 +35,10 @@ double step_ratio(const std::vector<double>& column) {
 
 /// Whether most values are met once, as by a probe that reads while the machine moves.
 bool moves_on(const std::vector<double>& column) {
-  return 2 * std::set(column.begin(), column.end()).size() > column.size();
+  std::vector<double> values = column;
+  std::ranges::sort(values);
+  const auto distinct = std::ranges::unique(values).begin() - values.begin();
+  return 2 * static_cast<std::size_t>(distinct) > column.size();
 }
 
 /// How evenly C turns: 1, always by the same step; 1/√N, at random.

@@ -18,9 +18,9 @@ namespace {
 constexpr std::size_t least_readings = 12;  // of a centre: three times its parameters
 constexpr double straight = 0.9;            // of the way of C that leads on
 constexpr std::size_t most_centres = 400;
-constexpr double by_chance = 1e-3;    // of streams
-constexpr double mostly = 0.25;       // of the scatter about a line, left by a step
-constexpr std::size_t least_run = 8;  // centres: twice the parameters of a coordinate
+constexpr double beyond_noise = 1e-3;  // of streams
+constexpr double mostly = 0.25;        // of the scatter about a line, left by a step
+constexpr std::size_t least_run = 8;   // centres: twice the parameters of a coordinate
 constexpr std::size_t least_side = 2;
 
 /// Mean, cosine, sine and slope in time of the values of a stretch; adds to the squares left.
@@ -84,7 +84,7 @@ Eigen::VectorXd scaled(Eigen::VectorXd column) {
 }
 
 /// The step in one run of turns: a line along Z and a drift in time are not steps, nor is a bend.
-std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm) {
+std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm, double by_chance) {
   const auto n = static_cast<Eigen::Index>(run.size());
   Eigen::MatrixX2d centres(n, 2);
   Eigen::VectorXd z(n);
@@ -176,16 +176,17 @@ double centres_spread(const TurnCentres& centres, std::size_t parameters) {
     chi2 += (yy * x * x - 2.0 * xy * x * y + xx * y * y) / (xx * yy - xy * xy);
   }
   const boost::math::chi_squared law(freedom);
-  return cdf(complement(law, chi2)) < by_chance ? std::sqrt(chi2 / freedom) : 1.0;
+  return cdf(complement(law, chi2)) < beyond_noise ? std::sqrt(chi2 / freedom) : 1.0;
 }
 
-std::optional<CentreStep> find_centre_step(const TurnCentres& centres) {
+std::optional<CentreStep> find_centre_step(const TurnCentres& centres, double by_chance) {
   std::optional<CentreStep> found;
   for (std::size_t begin = 0; begin < centres.list.size();) {
     std::size_t end = begin;
     while (end < centres.list.size() && centres.list[end].run == centres.list[begin].run) ++end;
     if (end - begin >= least_run) {
-      const auto step = step_in(std::span(centres.list).subspan(begin, end - begin), centres.u_mm);
+      const auto step =
+          step_in(std::span(centres.list).subspan(begin, end - begin), centres.u_mm, by_chance);
       if (step && (!found || step->size_mm > found->size_mm)) found = step;
     }
     begin = end;

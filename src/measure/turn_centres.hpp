@@ -45,7 +45,8 @@ struct CentreStep {
 /// The step after which the centres lie on another line (Eq. 314). It explains three quarters of
 /// their scatter about one line, and more than a bend with as many parameters does. None: the
 /// centres lie on one line, or on a curve.
-std::optional<CentreStep> find_centre_step(const TurnCentres& centres);
+/// @param by_chance the probability that noise makes one
+std::optional<CentreStep> find_centre_step(const TurnCentres& centres, double by_chance = 1e-3);
 
 /// What it says to a user, and what to do.
 std::string moved_text(const CentreStep& step);

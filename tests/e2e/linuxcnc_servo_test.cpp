@@ -52,17 +52,24 @@ class LinuxCncServo : public CommandTest {
     ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
   }
 
+  /// What is played in another way than the table was made for.
+  struct Played {
+    double c_off_deg = 0.0;
+    int sense = 1;
+    double probe_sign = 1.0;
+    std::string setting{};  ///< of the component, in HAL
+  };
   /// Lines of halsampler: C, Z, position, fault code, active, checked.
-  std::vector<std::array<double, 6>> run(double c_off_deg, const std::string& table) {
+  std::vector<std::array<double, 6>> run(const Played& played, const std::string& table) {
     std::string rows;
     for (int i = 0; i < checking + enabled + after; ++i) {
-      const double c = 3.6 * i,
+      const double c = 3.6 * played.sense * i,
                    z = i < checking ? 30.0 : std::max(42.0, 60.0 - 0.0125 * (i - checking));
-      const double x = 0.09 + 5e-4 * z, y = -0.03 - 4e-4 * z, turned = (c + c_off_deg) * rad;
+      const double x = 0.09 + 5e-4 * z, y = -0.03 - 4e-4 * z, turned = (c + played.c_off_deg) * rad;
       char row[120];
       std::snprintf(row, sizeof row, "%.6f %.6f %.9f %d %d\n", c, z,
-                    30.0 + x * std::cos(turned) + y * std::sin(turned), i < checking,
-                    i >= checking && i < checking + enabled);
+                    30.0 + played.probe_sign * (x * std::cos(turned) + y * std::sin(turned)),
+                    i < checking, i >= checking && i < checking + enabled);
       rows += row;
     }
     file("rows.txt", rows);
@@ -72,7 +79,8 @@ class LinuxCncServo : public CommandTest {
              table +
              "\nsetp trueaxis-fts.stroke 0.6\nsetp trueaxis-fts.z-low 42\n"
              "setp trueaxis-fts.z-high 60\nsetp trueaxis-fts.ramp-time 0.1\n"
-             "setp trueaxis-fts.c-homed 1\n"
+             "setp trueaxis-fts.c-homed 1\n" +
+             played.setting +
              "net c streamer.0.pin.0 => trueaxis-fts.c sampler.0.pin.0\n"
              "net z streamer.0.pin.1 => trueaxis-fts.z sampler.0.pin.1\n"
              "net probe streamer.0.pin.2 => trueaxis-fts.probe\n"
@@ -112,7 +120,7 @@ class LinuxCncServo : public CommandTest {
 
 // Every sample of the cut has the library's value of the table, to the six decimals of halsampler.
 TEST_F(LinuxCncServo, SendsWhatTheLibraryInterpolates) {
-  const auto samples = run(0.0, (folder_ / "out/table.csv").string());
+  const auto samples = run({}, (folder_ / "out/table.csv").string());
   ASSERT_GT(samples.size(), std::size_t{checking + enabled}) << said_;
   CorrectionRows rows;
   std::istringstream lines(read_text(folder_ / "out/table.csv"));
@@ -134,7 +142,7 @@ TEST_F(LinuxCncServo, SendsWhatTheLibraryInterpolates) {
 }
 
 TEST_F(LinuxCncServo, RefusesAnotherZeroOfCAndAChangedTableByName) {
-  const auto samples = run(10.0, (folder_ / "out/table.csv").string());
+  const auto samples = run({.c_off_deg = 10.0}, (folder_ / "out/table.csv").string());
   ASSERT_GT(samples.size(), std::size_t{checking}) << said_;
   for (const auto& sample : samples) EXPECT_EQ(sample[2], 0.0);
   EXPECT_TRUE(contains(said_, "position held: C zero is not that of the table")) << said_;
@@ -142,8 +150,23 @@ TEST_F(LinuxCncServo, RefusesAnotherZeroOfCAndAChangedTableByName) {
   text[text.size() - 3] = text[text.size() - 3] == '1' ? '2' : '1';
   file("changed.csv", text);
   std::filesystem::remove(folder_ / "samples.txt");
-  EXPECT_TRUE(run(0.0, (folder_ / "changed.csv").string()).empty());
+  EXPECT_TRUE(run({}, (folder_ / "changed.csv").string()).empty());
   EXPECT_TRUE(contains(said_, "has changed since it was written")) << said_;
+}
+
+TEST_F(LinuxCncServo, RefusesTheOtherSenseAStaleTableAndAnInvertedProbeByName) {
+  const std::string table = (folder_ / "out/table.csv").string();
+  const auto expect = [&](const Played& played, const std::string& fault) {
+    SCOPED_TRACE(fault);
+    std::filesystem::remove(folder_ / "samples.txt");
+    const auto samples = run(played, table);
+    ASSERT_GT(samples.size(), std::size_t{checking}) << said_;
+    for (const auto& sample : samples) EXPECT_EQ(sample[2], 0.0);
+    EXPECT_TRUE(contains(said_, "position held: " + fault)) << said_;
+  };
+  expect({.sense = -1}, "the spindle turns the other way than the table is for");
+  expect({.probe_sign = -1.0}, "the probe is wired inverted");
+  expect({.setting = "setp trueaxis-fts.max-age 0.001\n"}, "the table is older than max-age");
 }
 
 }  // namespace

@@ -180,6 +180,64 @@ TEST_F(ProbingProgram, ScansWhileTheSpindleTurns) {
   }
 }
 
+/// A pass out over a shaft, at 60 rpm.
+const std::string one_pass =
+    "seed = 4\n[part]\nsurface = \"cylinder\"\nradius_mm = 30\nx0_mm = 0.05\n[noise]\n"
+    "sigma_um = 1\n[[pass]]\nz_start_mm = -30\nz_end_mm = -10\nfeed_mm_per_rev = 1\n"
+    "readings_per_revolution = 30.3\nspeed_rpm = 60\n";
+
+// The pass that was measured, and the one that is advised: back at another speed.
+TEST_F(ProbingProgram, DrivesTheNextMeasurementOfADiagnosis) {
+  if (!has_interpreter()) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  file("part.toml", one_pass);
+  file("limits.toml", limits(analogue));
+  ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
+  const CommandStreams done = command(
+      "advise part.csv --surface cylinder --program linuxcnc --limits limits.toml -o p.ngc");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(contains(done.out, "2W  probe back at 151 rpm")) << done.out;
+  EXPECT_TRUE(contains(done.out, "Program\n  p.ngc  (")) << done.out;
+  const std::vector<Call> all = calls();
+  expect_clear(all);
+  std::vector<Call> feeds;
+  for (const Call& one : all)
+    if (one.name == "STRAIGHT_FEED") feeds.push_back(one);
+  ASSERT_EQ(feeds.size(), 4u);  // approach and pass, twice
+  const double rpm[] = {60.0, 151.0}, way[] = {1.0, -1.0};
+  for (std::size_t pass = 0; pass < 2; ++pass) {
+    const Call &first = feeds[2 * pass], &last = feeds[2 * pass + 1];
+    EXPECT_NEAR(first.x, 30.0 + ball, 0.01);  // the radius that was identified
+    // The last reading of 30.3 per revolution is a part of one before the end of 20.
+    EXPECT_NEAR(way[pass] * (last.z - first.z), 22.0, 2.0 / 30.3);
+    EXPECT_NEAR((last.c - first.c) / 360.0, 22.0, 2.0 / 30.3);
+    EXPECT_NEAR(last.feed, rpm[pass], 1e-3 * rpm[pass]);
+  }
+}
+
+TEST_F(ProbingProgram, AProbeThatCannotReadTheBestPlanDrivesTheNextBest) {
+  file("part.toml", one_pass);
+  file("limits.toml", limits(touch));
+  ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
+  const std::string advise = "advise part.csv --surface cylinder --program ";
+  const CommandStreams done = command(advise + "fanuc --limits fanuc.toml -o p.nc");
+  EXPECT_EQ(done.exit_code, 3) << done.out;  // no such file
+  const CommandStreams touched = command(advise + "siemens --limits limits.toml -o p.mpf");
+  ASSERT_EQ(touched.exit_code, 0) << touched.err;
+  const std::string program = read_text(folder_ / "p.mpf");
+  EXPECT_FALSE(contains(program, "probe back at 151 rpm")) << program;  // two speeds
+  EXPECT_FALSE(contains(program, "spindle reversed")) << program;
+  EXPECT_TRUE(contains(program, "probe again from the rear side")) << program;
+  EXPECT_EQ(command(advise + "linuxcnc -o p.ngc").exit_code, 2);  // no limits
+  EXPECT_EQ(command(advise + "linuxcnc --limits limits.toml").exit_code, 2);
+  const CommandStreams unknown = command(advise + "part.nc --limits limits.toml -o p.ngc");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_TRUE(contains(unknown.err, "part.nc is not a control")) << unknown.err;
+  EXPECT_FALSE(there("p.ngc"));
+  expect_input_error(
+      "advise part.csv --surface cylinder --bore --program linuxcnc --limits limits.toml -o p.ngc",
+      "outside of a shaft, not for a bore");
+}
+
 TEST_F(ProbingProgram, AnAirRunTouchesNothing) {
   if (!has_interpreter()) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
   for (const auto& [scenario, probe] : {std::pair{both_sides, touch}, {two_speeds, analogue}}) {

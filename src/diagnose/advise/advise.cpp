@@ -240,7 +240,8 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
       ranking.count(hidden[k].power, values, found_for_sure, hidden[k].axis_bias_mm);
   }
   const std::vector<std::size_t> order = ranking.order();
-  for (const std::size_t p : order)
+  for (const std::size_t p : order) {
+    out.runs.push_back(std::move(plans[p].runs));
     out.plans.push_back({plans[p].code,
                          plans[p].what,
                          ranking.before(),
@@ -248,6 +249,7 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
                          plans[p].minutes,
                          "",
                          {}});
+  }
   if (!ranking.any()) {
     out.next.why_not = questions.empty() && hidden.empty()
                            ? "all causes are told apart"

@@ -17,7 +17,8 @@ struct CandidateMeasurement {
   double minutes = 0.0;
   ProbeStream stream;  ///< what was measured and what would be, thinned
   std::vector<Clamping> clampings;
-  double weight = 1.0;  ///< readings that one of the thinned stands for
+  double weight = 1.0;             ///< readings that one of the thinned stands for
+  std::vector<ProbingRun> runs{};  ///< as of Diagnosis::runs
 };
 
 /// The candidates: each after the passes measured, in the manner of the longest of them.
@@ -43,6 +44,7 @@ CandidateMeasurement faster_measurement(const ProbeStream& stream, const Lineari
 struct Advice {
   NextMeasurement next;
   std::vector<Separating> plans;                     ///< best first
+  std::vector<std::vector<ProbingRun>> runs;         ///< one per plan
   std::vector<std::optional<Separating>> questions;  ///< one per question
   std::vector<std::optional<Separating>> hidden;     ///< one per hidden effect
 };

@@ -111,6 +111,37 @@ CandidateMeasurement measured(const ProbeStream& stream, const LinearisationPoin
   return out;
 }
 
+/// Whether the control can bring one clamping about from another: at most from the other side.
+bool same_place(const Clamping& a, const Clamping& b) {
+  return a.reindex_rad == b.reindex_rad && a.z_shift_mm == b.z_shift_mm &&
+         a.x_jog_mm == b.x_jog_mm && a.clamp_force_ratio == b.clamp_force_ratio && a.axis == b.axis;
+}
+
+/// The passes that were measured; none: the control cannot make them again.
+std::vector<ProbingRun> runs_measured(const LinearisationPoint& point,
+                                      const std::vector<Clamping>& clampings, const Manner& m) {
+  std::vector<ProbingRun> runs;
+  if (point.base.face || !point.has_position) return runs;
+  for (const Pass& pass : point.passes) {
+    const auto found = std::ranges::find(clampings, pass.setup, &Clamping::number);
+    const Clamping& clamping = found == clampings.end() ? clampings.back() : *found;
+    if (!same_place(clamping, clampings.back())) return {};
+    const std::size_t last = pass.end - 1;
+    ProbingRun run{point.z[pass.begin], point.z[last]};
+    run.turns = pass.c_sign == 0 ? 0.0 : (point.c[last] - point.c[pass.begin]) / two_pi;
+    run.seconds = point.has_time ? point.time[last] - point.time[pass.begin]
+                                 : std::abs(run.turns) * two_pi / m.speed;
+    run.readings = static_cast<double>(pass.end - pass.begin);
+    run.rear = clamping.root == Root::rear;
+    if (run.seconds > 0.0) runs.push_back(run);
+  }
+  return runs;
+}
+
+ProbingRun run_of(const Motion& motion, double readings, bool rear) {
+  return {motion.z_from, motion.z_to, motion.turns, motion.seconds, readings, rear, motion.turned};
+}
+
 int last_number(const std::vector<Clamping>& clampings) {
   return std::ranges::max_element(clampings, {}, &Clamping::number)->number;
 }
@@ -149,7 +180,11 @@ CandidateMeasurement faster_measurement(const ProbeStream& stream, const Lineari
         off_centre_mm, rpm, ratio * rpm);
     p.minutes += minutes_to_clamp + m.seconds / 60.0 + minutes_between;
   }
-  append(p.stream, {m.z_end, m.z_start, ratio * m.turns(), m.seconds}, readings, pass, number);
+  const Motion back{m.z_end, m.z_start, ratio * m.turns(), m.seconds};
+  append(p.stream, back, readings, pass, number);
+  if (off_centre_mm == 0.0) p.runs = runs_measured(point, clampings, m);
+  if (!p.runs.empty())
+    p.runs.push_back(run_of(back, readings * p.weight, clampings.back().root == Root::rear));
   p.what = first + ", in the same time: this separates delay and lag by their second orders";
   return p;
 }
@@ -167,6 +202,7 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   const int setup = last_number(clampings);
   const double turns = m.turns();
   const double rpm = m.speed * 60.0 / two_pi;
+  const std::vector<ProbingRun> runs = runs_measured(point, clampings, m);
   std::vector<CandidateMeasurement> list;
 
   const auto add = [&](const char* code, const std::string& what, double minutes,
@@ -180,11 +216,15 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
       change(next);
       p.clampings.push_back(next);
     }
+    const Clamping& then = p.clampings.back();
+    const bool driven = !runs.empty() && same_place(then, now);
+    if (driven) p.runs = runs;
     int own = pass;
     for (const Motion& motion : motions) {
       const double run =
           motion.turns != 0.0 ? std::abs(motion.turns) : motion.seconds * m.speed / two_pi;
       append(p.stream, motion, run * m.per_turn / weight, own++, number);
+      if (driven) p.runs.push_back(run_of(motion, run * m.per_turn, then.root == Root::rear));
     }
     list.push_back(std::move(p));
   };

@@ -105,6 +105,12 @@ std::vector<std::string> log_head(const ProbingPlan& plan, const ProbingLimits& 
   return lines;
 }
 
+std::string objection_to_part(bool bore, bool face) {
+  if (!bore && !face) return "";
+  return fmt::format("a probing program is for the outside of a shaft, not for a {}",
+                     bore ? "bore" : "face");
+}
+
 ProbingProgram write_probing(const ProbingPlan& plan, const ProbingLimits& limits,
                              ProbingControl control, const std::string& name, bool dry_run,
                              const std::string& file) {

@@ -28,6 +28,9 @@ struct ProbingPlan {
   double radius_at(double z_mm) const { return radius_mm + slope * z_mm; }
 };
 
+/// Why a part cannot be probed by a program; empty: it can.
+std::string objection_to_part(bool bore, bool face);
+
 enum class ProbeKind {
   touch,     ///< a trigger: points at indexed C
   analogue,  ///< a gauge that is read while the spindle turns

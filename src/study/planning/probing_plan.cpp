@@ -56,9 +56,10 @@ void take_shape(const Scenario& scenario, nc::ProbingPlan& plan) {
 nc::ProbingPlan probing_plan(const Scenario& scenario) {
   std::vector<Diagnostic> wrong;
   const auto refuse = [&](std::string why) { wrong.push_back({"", 0, 0, std::move(why)}); };
-  if (scenario.part.kind == PartKind::face || scenario.part.bore)
-    refuse(fmt::format("a probing program is for the outside of a shaft, not for a {}",
-                       scenario.part.bore ? "bore" : "face"));
+  if (const std::string why =
+          nc::objection_to_part(scenario.part.bore, scenario.part.kind == PartKind::face);
+      !why.empty())
+    refuse(why);
   if (!scenario.probe.sensor_angles_rad.empty())
     refuse("a probing program has one probe, not several sensors");
   nc::ProbingPlan plan;
@@ -75,6 +76,26 @@ nc::ProbingPlan probing_plan(const Scenario& scenario) {
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
   return plan;
+}
+
+std::vector<nc::ProbingPlan> probing_plans(const Diagnosis& diagnosis) {
+  const FitResult& fit = diagnosis.extended;
+  expects(nc::objection_to_part(fit.bore, fit.surface == SurfaceKind::plane).empty(),
+          "the outside of a shaft");
+  std::vector<nc::ProbingPlan> out;
+  for (std::size_t k = 0; k < diagnosis.plans.size(); ++k) {
+    const Separating& measure = diagnosis.plans[k];
+    if (diagnosis.runs[k].empty() || !(measure.power > measure.power_before)) continue;
+    nc::ProbingPlan& plan = out.emplace_back();
+    plan.what = measure.what;
+    plan.slope = fit.shape.tan_half_angle;
+    plan.radius_mm = fit.shape.radius_mm - plan.slope * fit.shape.axis.z_ref_mm;
+    for (const ProbingRun& run : diagnosis.runs[k])
+      plan.passes.push_back({run.from_mm, run.to_mm, run.turns, run.seconds,
+                             static_cast<std::size_t>(std::lround(run.readings)), run.c_rad,
+                             run.rear});
+  }
+  return out;
 }
 
 }  // namespace trueaxis::study
