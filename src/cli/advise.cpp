@@ -199,21 +199,19 @@ bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
 void add_advise(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<AdviseArguments>();
   command->add_option("stream", options->data,
-                      "probe stream (CSV) or job (.toml); with --machine its measurements, if any");
+                      "probe stream (CSV) or job (.toml); with --machine its measurements");
   options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
   options->machine.add_to(*command);
   command->get_option("--program")
       ->description(
-          "control whose program measures the next plan (linuxcnc, fanuc, siemens, "
-          "heidenhain); --machine: program on which every cause and the uncertainty of "
-          "the tip are weighed")
+          "control of the probing program (linuxcnc, fanuc, siemens, heidenhain); "
+          "with --machine the NC program that causes and u of the tip are weighed on")
       ->type_name("CONTROL|FILE")
       ->group("Options");
   options->program.add_limits_to(*command);
   options->results.add(*command, "-o,--output", "trueaxis.measurement_plan",
-                       "with --program its program; --machine: positions of the next measurement "
-                       "(CSV), to be filled in");
+                       "probing program; with --machine the next positions (CSV), to fill in");
   options->results.add(*command, "--json", "trueaxis.machine_diagnosis",
                        "diagnosis, for a job of every reference (JSON); - prints it");
   add_force(*command, options->results.force);

@@ -144,6 +144,7 @@ async function lookDark(page) {
   const problems = [];
   page.on('pageerror', (error) => problems.push(`dark: page error: ${error.message}`));
   await page.emulateMedia({colorScheme: 'dark'});
+  await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
   if (!await page.evaluate(paperIsDark)) problems.push('dark: the page is light');
   problems.push(...(await page.evaluate(inspectContrast)).map((problem) => `dark: ${problem}`));
   await shoot(page, 'dark.png');
