@@ -96,6 +96,8 @@ int advise_machine(const AdviseArguments& options, const std::string& content, O
 
 int advise_job(const CLI::App& command, AdviseArguments& options) {
   constexpr const char* in_job = "is for a stream alone: write it into the job";
+  expect_none(command, {"--control", "--limits", "--air-run", "--output"},
+              "is for a stream: name that of a reference, with its --surface");
   expect_only(command, {"stream", "--false-alarm", "--json", "--force", "--verbose", "--check"},
               in_job);
   const std::string content = read_file(options.stream.path);
@@ -148,18 +150,9 @@ int advise_job(const CLI::App& command, AdviseArguments& options) {
   return worst;
 }
 
-/// `--program` of a stream: the control that is to measure it, with `--limits` and `--output`.
+/// `--control` of a stream, with `--limits` and `--output`.
 void take_control(AdviseArguments& options, Outputs& outputs) {
-  const std::vector<std::string> known = ProbingOption::controls();
-  options.program.control = options.machine.program;
-  if (options.program.asked() && std::ranges::find(known, options.program.control) == known.end())
-    throw CLI::ValidationError(
-        "--program", options.program.control +
-                         " is not a control (linuxcnc, fanuc, siemens, heidenhain); the program of "
-                         "a part goes with --machine");
-  if (options.program.asked() != options.results.asked("--output"))
-    throw CLI::RequiredError(options.program.asked() ? "--output" : "--program");
-  options.program.read(outputs);
+  options.program.read(options.results, outputs);
   const FitOptions fit = options.association.chosen();
   const std::string why = nc::objection_to_part(fit.bore, fit.surface == SurfaceKind::plane);
   if (options.program.asked() && !why.empty()) throw InputError(options.stream.path, why);
@@ -203,13 +196,7 @@ void add_advise(CLI::App* command, int& exit_code) {
   options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
   options->machine.add_to(*command);
-  command->get_option("--program")
-      ->description(
-          "control of the probing program (linuxcnc, fanuc, siemens, heidenhain); "
-          "with --machine the NC program that causes and u of the tip are weighed on")
-      ->type_name("CONTROL|FILE")
-      ->group("Options");
-  options->program.add_limits_to(*command);
+  options->program.add_to(*command);
   options->results.add(*command, "-o,--output", "trueaxis.measurement_plan",
                        "probing program; with --machine the next positions (CSV), to fill in");
   options->results.add(*command, "--json", "trueaxis.machine_diagnosis",

@@ -212,6 +212,9 @@ void expect_one_stream(const CLI::App& command, std::size_t streams) {
     throw CLI::ValidationError("stream", "one stream, or several measurements with --machine");
   expect_none(command, {"--errors", "--sign", "--large-errors"},
               "is for a machine: name it with --machine");
+  expect_none(command, {"--program"},
+              "is the NC program of a machine: name that with --machine; --control has a probing "
+              "program written");
 }
 
 int advise_machine_job(const MachineJob& job, const Results& results, Outputs& outputs,

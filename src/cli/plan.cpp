@@ -134,9 +134,7 @@ int execute(PlanArguments options) {
   const Results& results = options.results;
   Outputs outputs(results.force);
   if (!options.scenario.empty()) outputs.reads(options.scenario);
-  if (options.program.asked() != results.asked("--output"))
-    throw CLI::RequiredError(options.program.asked() ? "--output" : "--program");
-  options.program.read(outputs);
+  options.program.read(results, outputs);
   results.name_to(outputs);
   outputs.check();
   if (options.program.asked()) study::probing_plan(task.base);
@@ -201,7 +199,7 @@ void add_plan(CLI::App* command, int& exit_code) {
   add_threads(*command, options->task.threads);
   options->program.add_to(*command);
   options->results.add(*command, "-o,--output", "trueaxis.probing_program",
-                       "program of the quickest plan recommended, with --program");
+                       "program of the quickest plan recommended, with --control");
   options->results.add(*command, "--json", "trueaxis.plan", "result (JSON); - prints it");
   add_force(*command, options->results.force);
   add_check(*command, options->check);

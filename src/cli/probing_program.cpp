@@ -35,35 +35,29 @@ std::string log_name(const std::string& output) {
 
 }  // namespace
 
-std::vector<std::string> ProbingOption::controls() {
-  return {"linuxcnc", "fanuc", "siemens", "heidenhain"};
-}
-
-void ProbingOption::add_limits_to(CLI::App& command) {
+void ProbingOption::add_to(CLI::App& command) {
+  add_option(command, "--control", control_, one_of({"linuxcnc", "fanuc", "siemens", "heidenhain"}),
+             "control of the probing program");
   command.add_option("--limits", limits_file_, "what the program must keep to (TOML)")
       ->type_name("FILE");
   command.add_flag("--air-run", dry_run_,
                    "a dry run: the program keeps off the part and logs nothing");
 }
 
-void ProbingOption::add_to(CLI::App& command) {
-  add_option(command, "--program", control, one_of(controls()),
-             "control whose probing program is written");
-  add_limits_to(command);
-}
-
-void ProbingOption::read(Outputs& outputs) {
+void ProbingOption::read(const Results& results, Outputs& outputs) {
   if (!asked()) {
-    if (!limits_file_.empty() || dry_run_) throw CLI::RequiredError("--program");
+    if (!limits_file_.empty() || dry_run_ || results.asked("--output"))
+      throw CLI::RequiredError("--control");
     return;
   }
+  if (!results.asked("--output")) throw CLI::RequiredError("--output");
   if (limits_file_.empty()) throw CLI::RequiredError("--limits");
   outputs.reads(limits_file_);
   limits_ = parse_probing_limits(read_file(limits_file_), limits_file_);
 }
 
 nc::ProbingProgram ProbingOption::write(nc::ProbingPlan plan, const std::string& output) const {
-  return nc::write_probing(plan, limits_, control_of(control), log_name(output), dry_run_,
+  return nc::write_probing(plan, limits_, control_of(control_), log_name(output), dry_run_,
                            limits_file_);
 }
 

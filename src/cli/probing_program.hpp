@@ -11,19 +11,15 @@
 
 namespace trueaxis::cli {
 
-/// `--program`, `--limits`, `--air-run`: the plan as a program of a control.
+/// `--control`, `--limits`, `--air-run`: the plan as a program of a control.
 class ProbingOption {
  public:
   /// `--output` is where it goes.
   void add_to(CLI::App& command);
-  /// The rest without `--program`, for a command in which that word means another program too.
-  void add_limits_to(CLI::App& command);
-  std::string control;
-  static std::vector<std::string> controls();
 
-  bool asked() const { return !control.empty(); }
+  bool asked() const { return !control_.empty(); }
   /// Names what is read. @throws InputError with all that is wrong with the limits
-  void read(Outputs& outputs);
+  void read(const Results& results, Outputs& outputs);
   /// @throws InputError with every reason why the plan cannot be driven
   nc::ProbingProgram write(nc::ProbingPlan plan, const std::string& output) const;
   /// The same for the first of several that the probe at hand can read.
@@ -34,7 +30,7 @@ class ProbingOption {
   static std::string line(const nc::ProbingProgram& program, const std::string& output);
 
  private:
-  std::string limits_file_;
+  std::string control_, limits_file_;
   bool dry_run_ = false;
   nc::ProbingLimits limits_;
 };

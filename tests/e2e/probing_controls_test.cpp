@@ -44,7 +44,7 @@ class ProbingControls : public CommandTest {
              one.options);
     const CommandStreams done = command(
         "study plan plan.toml --goal-um 5 --repeats 100 --limits limits.toml -o p.nc "
-        "--force --program " +
+        "--force --control " +
         one.control + options);
     EXPECT_EQ(done.exit_code, 0) << done.err;
     PlainKlartextControl control;

@@ -53,7 +53,7 @@ class ProbingProgram : public CommandTest {
     file("plan.toml", scenario);
     file("limits.toml", limits(probe));
     return command(
-        "study plan plan.toml --goal-um 5 --repeats 100 --program linuxcnc "
+        "study plan plan.toml --goal-um 5 --repeats 100 --control linuxcnc "
         "--limits limits.toml -o p.ngc " +
         options);
   }
@@ -193,7 +193,7 @@ TEST_F(ProbingProgram, DrivesTheNextMeasurementOfADiagnosis) {
   file("limits.toml", limits(analogue));
   ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
   const CommandStreams done = command(
-      "advise part.csv --surface cylinder --program linuxcnc --limits limits.toml -o p.ngc");
+      "advise part.csv --surface cylinder --control linuxcnc --limits limits.toml -o p.ngc");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_TRUE(contains(done.out, "2W  probe back at 151 rpm")) << done.out;
   EXPECT_TRUE(contains(done.out, "Program\n  p.ngc  (")) << done.out;
@@ -218,7 +218,7 @@ TEST_F(ProbingProgram, AProbeThatCannotReadTheBestPlanDrivesTheNextBest) {
   file("part.toml", one_pass);
   file("limits.toml", limits(touch));
   ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
-  const std::string advise = "advise part.csv --surface cylinder --program ";
+  const std::string advise = "advise part.csv --surface cylinder --control ";
   const CommandStreams done = command(advise + "fanuc --limits fanuc.toml -o p.nc");
   EXPECT_EQ(done.exit_code, 3) << done.out;  // no such file
   const CommandStreams touched = command(advise + "siemens --limits limits.toml -o p.mpf");
@@ -231,10 +231,21 @@ TEST_F(ProbingProgram, AProbeThatCannotReadTheBestPlanDrivesTheNextBest) {
   EXPECT_EQ(command(advise + "linuxcnc --limits limits.toml").exit_code, 2);
   const CommandStreams unknown = command(advise + "part.nc --limits limits.toml -o p.ngc");
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_TRUE(contains(unknown.err, "part.nc is not a control")) << unknown.err;
+  EXPECT_TRUE(contains(unknown.err, "part.nc not in {linuxcnc")) << unknown.err;
+  // A control and the NC program of a machine are two options.
+  const CommandStreams nc = command("advise part.csv --surface cylinder --program linuxcnc");
+  EXPECT_EQ(nc.exit_code, 2);
+  EXPECT_TRUE(contains(nc.err, "--control has a probing program written")) << nc.err;
+  const CommandStreams machine =
+      command("advise --machine m.toml --control linuxcnc --limits limits.toml -o p.ngc");
+  EXPECT_EQ(machine.exit_code, 2);
+  EXPECT_TRUE(contains(machine.err, "--control: is for a stream")) << machine.err;
+  const CommandStreams job = command("advise j.toml --control siemens --limits limits.toml -o p.m");
+  EXPECT_EQ(job.exit_code, 2);
+  EXPECT_TRUE(contains(job.err, "--control: is for a stream")) << job.err;
   EXPECT_FALSE(there("p.ngc"));
   expect_input_error(
-      "advise part.csv --surface cylinder --bore --program linuxcnc --limits limits.toml -o p.ngc",
+      "advise part.csv --surface cylinder --bore --control linuxcnc --limits limits.toml -o p.ngc",
       "outside of a shaft, not for a bore");
 }
 
