@@ -40,9 +40,13 @@ double U_of_axis_mm(const FitResult& fit) {
 std::optional<CentreStep> moved_in_pass(const ProbeStream& stream, std::span<const double> left_mm,
                                         const FitResult& fit, double by_chance) {
   if (!fit.axis_known() || left_mm.size() != stream.size()) return {};
-  const auto step =
-      find_centre_step(turn_centres(stream, without_lone_outliers(left_mm)), by_chance);
-  return step && step->size_mm > U_of_axis_mm(fit) ? step : std::nullopt;
+  const std::vector<double> counted_mm = without_lone_outliers(left_mm);
+  const auto step = find_centre_step(turn_centres(stream, counted_mm), by_chance);
+  if (!step || !(step->size_mm > U_of_axis_mm(fit))) return {};
+  std::vector<double> value_mm = stream.reading_mm;
+  for (std::size_t i = 0; i < value_mm.size(); ++i)
+    if (!std::isfinite(counted_mm[i])) value_mm[i] = counted_mm[i];
+  return weighed_with_delay(*step, stream, value_mm);
 }
 
 }  // namespace trueaxis

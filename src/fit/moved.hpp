@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "measure/turn_centres.hpp"
+#include "measure/centre_step.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "math/statistics.hpp"
+#include "measure/centre_step.hpp"
 #include "measure/column_checks.hpp"
-#include "measure/turn_centres.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -87,7 +87,8 @@ void check_common(const ProbeStream& stream, Troubles& troubles) {
   // What hides in the scatter of a reading hides in U of every value.
   const TurnCentres centres = turn_centres(stream, stream.reading_mm);
   const auto step = find_centre_step(centres);
-  if (step && step->size_mm > 2.0 * centres.sigma_mm) troubles.add(moved_text(*step));
+  if (step && step->size_mm > 2.0 * centres.sigma_mm)
+    troubles.add(moved_text(weighed_with_delay(*step, stream, stream.reading_mm)));
   troubles.finish();
 }
 

@@ -20,29 +20,6 @@ double turns_of(const ProbeStream& stream) {
   return std::abs(stream.c_rad.back() - stream.c_rad.front()) / two_pi;
 }
 
-/// Radians per second over two turns that begin one turn away from reading `at`, because where the
-/// part moved is known to within one. Not a number: there is not half a turn.
-double speed_beside(const ProbeStream& stream, std::size_t at, bool before) {
-  const auto reading_at = [&](double turns) {
-    std::size_t i = at;
-    while (std::abs(stream.c_rad[i] - stream.c_rad[at]) < turns * two_pi &&
-           i != (before ? 0 : stream.size() - 1))
-      i = before ? i - 1 : i + 1;
-    return i;
-  };
-  const std::size_t near = reading_at(1.0), far = reading_at(3.0);
-  const double turned = stream.c_rad[far] - stream.c_rad[near];
-  if (std::abs(turned) < 0.5 * two_pi) return std::nan("");
-  return turned / (stream.time_s[far] - stream.time_s[near]);
-}
-
-bool may_change_speed(const ProbeStream& stream, std::size_t at) {
-  constexpr double same = 0.01;  // as of a pass
-  if (stream.time_s.empty()) return true;
-  const double before = speed_beside(stream, at, true), after = speed_beside(stream, at, false);
-  return !(std::abs(after - before) <= same * std::abs(before));
-}
-
 void add_picture(LiveState& state, const ProbeStream& stream) {
   std::array<double, LiveState::bins> sum{}, count{};
   for (std::size_t i = 0; i < state.fit.residual_mm.size(); ++i) {
@@ -95,7 +72,6 @@ LiveState live_state(const LiveStream& stream, const FitOptions& options, const 
       moved_in_pass(sample, state.fit.residual_mm, state.fit, 1e-3 / (looks * (looks + 1.0)));
   if (state.moved && state.moved->size_mm < least_slip * mad_sigma(state.fit.residual_mm))
     state.moved.reset();
-  state.speed_changed = state.moved && may_change_speed(sample, state.moved->reading);
   state.deaf = probe_is_deaf(stream.kept(), before.axis_known() ? before : state.fit);
   return state;
 }

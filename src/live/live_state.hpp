@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "live/live_stream.hpp"
-#include "measure/turn_centres.hpp"
+#include "measure/centre_step.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis {
@@ -17,7 +17,6 @@ struct LiveState {
   FitResult fit;      ///< of a sample of the readings that are kept
   double U_mm = 0.0;  ///< of the axis at the worse end; infinite while it is not known
   std::optional<CentreStep> moved;  ///< the part slipped
-  bool speed_changed = false;       ///< there, or nobody knows: a delay of X moves the centre too
   bool deaf = false;                ///< the probe does not read what the part does below it
   static constexpr std::size_t bins = 60;
   std::array<double, bins> left_mm{};  ///< mean residual over C; not a number: no reading

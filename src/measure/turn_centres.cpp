@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/turn_centres.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "math/linear_algebra.hpp"
-#include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -19,9 +15,6 @@ constexpr std::size_t least_readings = 12;  // of a centre: three times its para
 constexpr double straight = 0.9;            // of the way of C that leads on
 constexpr std::size_t most_centres = 400;
 constexpr double beyond_noise = 1e-3;  // of streams
-constexpr double mostly = 0.25;        // of the scatter about a line, left by a step
-constexpr std::size_t least_run = 8;   // centres: twice the parameters of a coordinate
-constexpr std::size_t least_side = 2;
 
 /// Mean, cosine, sine and slope in time of the values of a stretch; adds to the squares left.
 bool take_centre(const ProbeStream& stream, std::span<const double> value_mm, TurnCentre& centre,
@@ -58,72 +51,6 @@ bool take_centre(const ProbeStream& stream, std::span<const double> value_mm, Tu
   squares += std::max(sum2 - right.dot(solution), 0.0);
   freedom += static_cast<double>(count) - 4.0;
   return true;
-}
-
-/// Squares of the centres [first, last) about a model of `columns`, x and y together.
-double squares_about(const Eigen::MatrixXd& columns, const Eigen::MatrixX2d& centres) {
-  const Eigen::MatrixXd model = linear::pivoted_least_squares(columns, Eigen::MatrixXd(centres));
-  return (centres - linear::product(columns, model)).squaredNorm();
-}
-
-/// Variance of a coordinate by second differences: what goes to and fro is not a step.
-double variance_of_neighbours(const Eigen::MatrixX2d& centres) {
-  const Eigen::Index n = centres.rows() - 2;
-  const Eigen::MatrixX2d second =
-      centres.topRows(n) - 2.0 * centres.middleRows(1, n) + centres.bottomRows(n);
-  std::vector<double> squares;
-  for (Eigen::Index i = 0; i < n; ++i) squares.push_back(second.row(i).squaredNorm());
-  return median(std::move(squares)) / (2.0 * std::log(2.0) * 6.0);  // median of χ²(2)
-}
-
-/// −1 to 1 over a column; 0 if it is constant.
-Eigen::VectorXd scaled(Eigen::VectorXd column) {
-  const double low = column.minCoeff(), half = 0.5 * (column.maxCoeff() - low);
-  return half > 0.0 ? Eigen::VectorXd((column.array() - low) / half - 1.0)
-                    : Eigen::VectorXd::Zero(column.size());
-}
-
-/// The step in one run of turns: a line along Z and a drift in time are not steps, nor is a bend.
-std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm, double by_chance) {
-  const auto n = static_cast<Eigen::Index>(run.size());
-  Eigen::MatrixX2d centres(n, 2);
-  Eigen::VectorXd z(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const TurnCentre& one = run[static_cast<std::size_t>(i)];
-    centres.row(i) << one.x_mm, one.y_mm;
-    z(i) = one.position_mm;
-  }
-  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(n, -1.0, 1.0);
-  Eigen::MatrixXd model(n, 5);
-  model << Eigen::VectorXd::Ones(n), scaled(z), t, t.array().square(), t.array().cube();
-  const double about_line = squares_about(model.leftCols(3), centres);
-  const double about_bend = squares_about(model, centres);
-  double least = about_bend;
-  Eigen::Index at = 0;
-  const auto side = static_cast<Eigen::Index>(least_side);
-  for (Eigen::Index k = side; k + side <= n; ++k) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      model(i, 3) = i < k ? 0.0 : 1.0;
-      model(i, 4) = i < k ? 0.0 : t(i) - t(k);
-    }
-    const double squares = squares_about(model, centres);
-    if (squares >= least) continue;
-    least = squares;
-    at = k;
-  }
-  const double noise = 2.0 * static_cast<double>(n) * u_mm * u_mm;
-  if (at == 0 || least - noise > mostly * (about_line - noise)) return {};
-  // A step and a change of slope of x and of y are four parameters, each centre a place for them.
-  const double variance = std::max(u_mm * u_mm, variance_of_neighbours(centres));
-  const double enough =
-      quantile(complement(boost::math::chi_squared(4.0), by_chance / static_cast<double>(n)));
-  if (about_bend - least < enough * variance) return {};
-  const auto mean_of = [&](Eigen::Index from, Eigen::Index count) -> Eigen::Vector2d {
-    return centres.middleRows(from, count).colwise().mean().transpose();
-  };
-  const Eigen::Index few = std::min<Eigen::Index>({3, at, n - at});
-  return CentreStep{run[static_cast<std::size_t>(at)].begin,
-                    (mean_of(at, few) - mean_of(at - few, few)).norm()};
 }
 
 }  // namespace
@@ -177,31 +104,6 @@ double centres_spread(const TurnCentres& centres, std::size_t parameters) {
   }
   const boost::math::chi_squared law(freedom);
   return cdf(complement(law, chi2)) < beyond_noise ? std::sqrt(chi2 / freedom) : 1.0;
-}
-
-std::optional<CentreStep> find_centre_step(const TurnCentres& centres, double by_chance) {
-  std::optional<CentreStep> found;
-  for (std::size_t begin = 0; begin < centres.list.size();) {
-    std::size_t end = begin;
-    while (end < centres.list.size() && centres.list[end].run == centres.list[begin].run) ++end;
-    if (end - begin >= least_run) {
-      const auto step =
-          step_in(std::span(centres.list).subspan(begin, end - begin), centres.u_mm, by_chance);
-      if (step && (!found || step->size_mm > found->size_mm)) found = step;
-    }
-    begin = end;
-  }
-  return found;
-}
-
-std::string moved_text(const CentreStep& step) {
-  return fmt::format(
-      "the centre of the turns moves by {:.3g} µm about data row {}: the part slipped there, C "
-      "lost "
-      "its place, or two recordings were joined. Give each part of the stream a file of its own, "
-      "or "
-      "clamp the part again and probe again",
-      step.size_mm / mm_per_um, step.reading + 1);
 }
 
 }  // namespace trueaxis

@@ -3,9 +3,7 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "trueaxis/probe_stream.hpp"
@@ -35,20 +33,5 @@ TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> valu
 /// By how much the centres scatter beyond their u, √(χ²/ν) (Birge 1932); 1 if noise does so once in
 /// 1000 streams. Eq. 313. @param lines what a fit took out of the centres: parameters
 double centres_spread(const TurnCentres& centres, std::size_t parameters);
-
-/// A part that moved at one reading.
-struct CentreStep {
-  std::size_t reading = 0;  ///< the first after it, to within one turn
-  double size_mm = 0.0;
-};
-
-/// The step after which the centres lie on another line (Eq. 314). It explains three quarters of
-/// their scatter about one line, and more than a bend with as many parameters does. None: the
-/// centres lie on one line, or on a curve.
-/// @param by_chance the probability that noise makes one
-std::optional<CentreStep> find_centre_step(const TurnCentres& centres, double by_chance = 1e-3);
-
-/// What it says to a user, and what to do.
-std::string moved_text(const CentreStep& step);
 
 }  // namespace trueaxis

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Centres of turns: what scatters, steps and bends.
-#include "measure/turn_centres.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <random>
 
 #include "measure/angles_alike.hpp"
+#include "measure/centre_step.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

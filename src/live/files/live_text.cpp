@@ -46,7 +46,7 @@ std::string live_alarm(const LiveState& state) {
     return "the probe is deaf: its readings do not follow the part. Stop, and look at the probe";
   if (state.moved)
     return fmt::format("the part slipped by {:.3g} µm{}", um(state.moved->size_mm),
-                       state.speed_changed
+                       state.moved->may_be_delay
                            ? ", or X is late and the speed changed: stop, and look at both"
                            : ": stop, and clamp it again");
   return "";

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/centre_step.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "measure/step_model.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace step_model;
+
+constexpr double mostly = 0.25;        // of the scatter about a line, left by a step
+constexpr std::size_t least_side = 2;  // centres
+
+/// The step in one run of turns: a line along Z and a drift in time are not steps, nor is a bend.
+std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm, double by_chance) {
+  const auto n = static_cast<Eigen::Index>(run.size());
+  const Eigen::MatrixX2d centres = places(run);
+  Eigen::MatrixXd model(n, 5);
+  model.leftCols(3) = line(run);
+  const Eigen::VectorXd t = model.col(2);
+  model.rightCols(2) << t.array().square(), t.array().cube();
+  const double about_line = squares_about(model.leftCols(3), centres);
+  const double about_bend = squares_about(model, centres);
+  double least = about_bend;
+  Eigen::Index at = 0;
+  const auto side = static_cast<Eigen::Index>(least_side);
+  for (Eigen::Index k = side; k + side <= n; ++k) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      model(i, 3) = i < k ? 0.0 : 1.0;
+      model(i, 4) = i < k ? 0.0 : t(i) - t(k);
+    }
+    const double squares = squares_about(model, centres);
+    if (squares >= least) continue;
+    least = squares;
+    at = k;
+  }
+  const double noise = 2.0 * static_cast<double>(n) * u_mm * u_mm;
+  if (at == 0 || least - noise > mostly * (about_line - noise)) return {};
+  // A step and a change of slope of x and of y are four parameters, each centre a place for them.
+  if (about_bend - least < enough(by_chance, run.size()) * variance(centres, u_mm)) return {};
+  const auto mean_of = [&](Eigen::Index from, Eigen::Index count) -> Eigen::Vector2d {
+    return centres.middleRows(from, count).colwise().mean().transpose();
+  };
+  const Eigen::Index few = std::min<Eigen::Index>({3, at, n - at});
+  return CentreStep{run[static_cast<std::size_t>(at)].begin,
+                    (mean_of(at, few) - mean_of(at - few, few)).norm()};
+}
+
+}  // namespace
+
+std::optional<CentreStep> find_centre_step(const TurnCentres& centres, double by_chance) {
+  std::optional<CentreStep> found;
+  for (std::size_t begin = 0; begin < centres.list.size();) {
+    std::size_t end = begin;
+    while (end < centres.list.size() && centres.list[end].run == centres.list[begin].run) ++end;
+    if (end - begin >= least_run) {
+      const auto step =
+          step_in(std::span(centres.list).subspan(begin, end - begin), centres.u_mm, by_chance);
+      if (step && (!found || step->size_mm > found->size_mm)) found = step;
+    }
+    begin = end;
+  }
+  return found;
+}
+
+std::string moved_text(const CentreStep& step) {
+  std::string text = fmt::format("the centre of the turns moves by {:.3g} µm about data row {}: ",
+                                 step.size_mm / mm_per_um, step.reading + 1);
+  if (!step.may_be_delay)
+    return text +
+           "the part slipped there, C lost its place, or two recordings were joined. Give each "
+           "part of the stream a file of its own, or clamp the part again and probe again";
+  text += std::isnan(step.delay_s)
+              ? "X is late and the speed changed there, or the part slipped"
+              : fmt::format(
+                    "the speed changed there and X is {} by about {:.2g} ms, or the part slipped",
+                    step.delay_s < 0.0 ? "early" : "late", 1e3 * std::abs(step.delay_s));
+  return text + ". Give each speed a file of its own; `trueaxis diagnose` tells a delay";
+}
+
+}  // namespace trueaxis
