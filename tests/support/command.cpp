@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/command.hpp"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+
 namespace trueaxis::testing {
 
 CommandResult shell(const std::string& command) {
@@ -20,7 +25,13 @@ CommandResult trueaxis_command(const std::string& arguments) {
 }
 
 std::filesystem::path fresh_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(places::scratch()) / name;
+  std::filesystem::path folder = std::filesystem::path(places::scratch()) / name;
+  if (const auto* test = ::testing::UnitTest::GetInstance()->current_test_info()) {
+    std::string own = std::string(test->test_suite_name()) + "_" + test->name();
+    std::ranges::replace_if(
+        own, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    folder /= own;
+  }
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/command_fixture.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 namespace trueaxis::testing {
 
-void CommandTest::SetUp() {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string(test->test_suite_name()) + "_" + test->name();
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-  folder_ = fresh_folder("command/" + name);
-}
+void CommandTest::SetUp() { folder_ = fresh_folder("command"); }
 
 void CommandTest::expect_input_error(const std::string& arguments, const std::string& why) {
   const auto before = files_in(folder_);
