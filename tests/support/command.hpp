@@ -25,8 +25,8 @@ CommandResult shell(const std::string& command);
 
 CommandResult trueaxis_command(const std::string& arguments);
 
-/// An empty folder under the build tree, made anew: of the running test alone, for others run at
-/// the same time.
+/// An empty folder under the build tree, made anew. Each test has its own: others run at the same
+/// time.
 std::filesystem::path fresh_folder(const std::string& name);
 
 void write_text(const std::filesystem::path& path, const std::string& text);
