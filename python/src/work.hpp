@@ -25,16 +25,18 @@ auto without_python(Work&& work) {
   return work();
 }
 
-/// The same for long work: a signal of Python (Ctrl-C), or what `progress(seconds)` raises, ends
-/// it.
-/// @param progress None, or a function of the seconds since the beginning
+/// The same for long work: a signal of Python (Ctrl-C), or what `progress(seconds, share)` raises,
+/// ends it.
+/// @param progress None, or a function of the seconds since the beginning and of the share done,
+/// None unless the work counts
 template <class Work>
 auto stoppable(const py::object& progress, Work&& work) {
   using Clock = std::chrono::steady_clock;
   std::atomic<bool> asked = false;
+  std::atomic<double> share = -1.0;
   const auto begun = Clock::now();
   auto result = std::async(std::launch::async, [&] {
-    const Stoppable scope(&asked);
+    const Stoppable scope(&asked, &share);
     return work();
   });
   const auto ready_in = [&](auto time) {
@@ -44,8 +46,10 @@ auto stoppable(const py::object& progress, Work&& work) {
   try {
     while (!ready_in(look_every)) {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress.is_none())
-        progress(std::chrono::duration<double>(Clock::now() - begun).count());
+      if (progress.is_none()) continue;
+      const double done = share;
+      progress(std::chrono::duration<double>(Clock::now() - begun).count(),
+               done < 0.0 ? py::object(py::none()) : py::object(py::float_(done)));
     }
   } catch (py::error_already_set&) {
     asked = true;

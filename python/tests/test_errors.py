@@ -111,7 +111,7 @@ def test_progress_is_called_and_may_end_the_work():
     class Enough(Exception):
         pass
 
-    def progress(seconds):
+    def progress(seconds, share):
         seen.append(seconds)
         raise Enough
 
@@ -119,6 +119,14 @@ def test_progress_is_called_and_may_end_the_work():
     with pytest.raises(Enough):
         ta.sweep(scenario, progress=progress)
     assert seen and 0.0 < seen[0] < 1.0
+
+
+def test_progress_has_the_share_that_is_done():
+    shares = []
+    ta.sweep(ROOT / "data/sweeps/noise.toml", progress=lambda _, share: shares.append(share))
+    counted = [one for one in shares if one is not None]
+    assert len(set(counted)) > 2 and all(0.0 <= one <= 1.0 for one in counted)
+    assert counted == sorted(counted)
 
 
 LONG = {

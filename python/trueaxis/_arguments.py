@@ -45,7 +45,7 @@ _KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "str": (lambda value: isinstance(value, str), "a text"),
     "Path": (_is_path, "a path"),
     "Document": (lambda value: _is_path(value) or isinstance(value, Mapping), "a path or a dictionary"),
-    "Progress": (callable, "a function of the seconds since the beginning"),
+    "Progress": (callable, "a function of the seconds since the beginning and of the share that is done"),
     "Sequence[float]": (_are(_is_number), "a list of numbers"),
     "Sequence[Path]": (_are(_is_path), "a list of paths"),
     "Path | Sequence[Path]": (lambda value: _is_path(value) or _are(_is_path)(value), "a path or a list of paths"),

@@ -5,7 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 _Floats = npt.NDArray[np.float64]
-_Progress = Callable[[float], object] | None
+_Progress = Callable[[float, float | None], object] | None
 
 version: str
 

@@ -65,7 +65,8 @@ def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | N
         Look first, as the command does, whether the readings are those of one surface whose part did
         not move. This takes longer than the fit itself; leave it out for simulated readings only.
     progress : callable, optional
-        Called with the seconds since the beginning; what it raises ends the work.
+        Called with the seconds since the beginning and the share that is done: 0 to 1 for the present step of `sweep`
+        and `plan`, None for work that does not count. What it raises ends the work.
     **units
         For arrays: ``x_unit`` ("mm radius" or "mm diameter"; um, m and in too), ``c_unit`` ("deg", "rad"
         or "rev"), ``z_unit`` ("mm", "um", "m" or "in") and all else that :func:`stream` takes. For a

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from typing import Optional
 
-Progress = Optional[Callable[[float], object]]
+Progress = Optional[Callable[[float, Optional[float]], object]]
 
 
 class Shown:
@@ -16,9 +16,10 @@ class Shown:
         self._doing, self._shown = doing, False
         self._call = progress
 
-    def _show(self, seconds: float) -> None:
+    def _show(self, seconds: float, share: float | None) -> None:
         if seconds > 2.0 and sys.stderr.isatty():
-            sys.stderr.write(f"\r\033[K{self._doing}, {seconds:.0f} s")
+            done = "" if share is None else f", {share:.0%}"
+            sys.stderr.write(f"\r\033[K{self._doing}, {seconds:.0f} s{done}")
             sys.stderr.flush()
             self._shown = True
 

@@ -13,17 +13,22 @@ struct Stopped {};
 /// with Stopped soon after `asked` becomes true. Without one, work runs to its end.
 class Stoppable {
  public:
-  explicit Stoppable(const std::atomic<bool>* asked);
+  /// @param share of the work that is done: set by work that counts, read by who waits
+  explicit Stoppable(const std::atomic<bool>* asked, std::atomic<double>* share = nullptr);
   ~Stoppable();
   Stoppable(const Stoppable&) = delete;
   Stoppable& operator=(const Stoppable&) = delete;
 
  private:
   const std::atomic<bool>* before_;
+  std::atomic<double>* share_before_;
 };
 
 /// What this thread's work is stopped by; nullptr: nothing.
 const std::atomic<bool>* stopped_by();
+
+/// Where this thread's work says how much of it is done, 0 to 1; nullptr: nobody looks.
+std::atomic<double>* share_done();
 
 /// @throws Stopped if this thread's work was asked to end
 void stop_if_asked();

@@ -24,10 +24,10 @@ void for_each_index_with(std::size_t count, int threads, const std::function<Ind
   std::mutex one_at_a_time;
   std::exception_ptr failure;
   std::size_t failed = count;
-  const auto loop = [&, asked = stopped_by()] {
+  const auto loop = [&, asked = stopped_by(), share = share_done()] {
     std::size_t i = 0;
     try {
-      const Stoppable stoppable(asked);
+      const Stoppable stoppable(asked, share);
       const IndexedWork work = make();
       for (i = next++; i < count; i = next++) {
         stop_if_asked();

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/stop.hpp"
 #include "cli/terminal.hpp"
 #include "platform/terminal.hpp"
 
@@ -25,10 +26,16 @@ Progress::Progress(std::size_t before, std::size_t to_do, std::string unit)
       unit_(std::move(unit)),
       on_terminal_(platform::is_terminal(platform::Stream::error)),
       begun_(Clock::now()),
-      shown_(begun_) {}
+      shown_(begun_),
+      share_(share_done()) {}
+
+double Progress::share() const {
+  return static_cast<double>(before_ + done_) / static_cast<double>(before_ + to_do_);
+}
 
 void Progress::add(std::size_t count) {
   done_ += count;
+  if (share_ != nullptr) *share_ = share();
   const auto now = Clock::now();
   if (!on_terminal_ || now - shown_ < std::chrono::milliseconds(200)) return;
   shown_ = now;
@@ -38,8 +45,7 @@ void Progress::add(std::size_t count) {
 void Progress::show() {
   const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
   const double rate = static_cast<double>(done_) / seconds;
-  const double share = static_cast<double>(before_ + done_) / static_cast<double>(before_ + to_do_);
-  fmt::print(stderr, "\r\033[K{:3.0f} %  {} of {} {}, {:.{}f}/s, {} left", 100.0 * share,
+  fmt::print(stderr, "\r\033[K{:3.0f} %  {} of {} {}, {:.{}f}/s, {} left", 100.0 * share(),
              before_ + done_, before_ + to_do_, unit_, rate, rate < 10.0 ? 1 : 0,
              duration_text(static_cast<double>(to_do_ - done_) / rate));
   std::fflush(stderr);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -38,7 +39,8 @@ class Waiting {
   std::thread thread_;
 };
 
-/// A line on standard error with share, rate and time left; nothing unless that is a terminal.
+/// A line on standard error with share, rate and time left, if that is a terminal. The share also
+/// goes to share_done().
 class Progress {
  public:
   /// `before`: done by an earlier run.
@@ -48,11 +50,13 @@ class Progress {
 
  private:
   void show();
+  double share() const;
   using Clock = std::chrono::steady_clock;
   std::size_t before_, to_do_, done_ = 0;
   std::string unit_;
   bool on_terminal_;
   Clock::time_point begun_, shown_;
+  std::atomic<double>* share_;
 };
 
 }  // namespace trueaxis::cli
