@@ -138,6 +138,9 @@ struct Diagnosis : Conclusion {
   std::vector<AxisShare> shares;  ///< what moves the average from the named model, largest first
   std::vector<AxisLimit> limits;  ///< what U comes from, the largest part first
   std::vector<RefutedStatement> refuted;
+  /// A long delay of X that fits the readings as what was found does, s; NaN: no clock. It turns
+  /// the axis by an angle that is then not known.
+  std::optional<double> late_s;
   std::vector<Finding> findings;  ///< by axis_bias, the largest first
   std::vector<Unexplained> unexplained;
   std::vector<NotObservable> not_observable;

@@ -41,6 +41,7 @@ enum class ReasonCode {
   part_may_have_slipped,
   part_moved,
   slip_unsure,
+  late_or_slipped,
   statement_refuted,
   moved_across,
   moved_along_z,

@@ -17,6 +17,7 @@
 #include "diagnose/explain/plausible_sizes.hpp"
 #include "diagnose/explain/quality.hpp"
 #include "diagnose/explain/stated.hpp"
+#include "diagnose/refit/delay_instead.hpp"
 #include "fit/plausible.hpp"
 #include "measure/angles_alike.hpp"
 #include "trueaxis/diagnosis.hpp"
@@ -91,6 +92,20 @@ std::vector<std::string> remarks_on(const Problem& problem, const Joint& joint,
     out.push_back(std::move(remark));
   for (std::string& remark : alias_remark(problem.resolution)) out.push_back(std::move(remark));
   return out;
+}
+
+/// A long delay joins the class of a slip that it may be instead.
+void add_delay(const IdealModel& ideal, const RelinearisedFit& refit, Diagnosis& out) {
+  const auto delay = delay_instead(ideal, refit);
+  if (!delay) return;
+  out.late_s = delay->delay_s;
+  for (Finding& slip : out.findings) {
+    if (!is_step(slip.term.effect->term) || slip.may_be(delay->rival.effect)) continue;
+    slip.probability *= 1.0 - delay->rival.probability;
+    for (Rival& rival : slip.rivals) rival.probability *= 1.0 - delay->rival.probability;
+    slip.rivals.push_back(delay->rival);
+    std::ranges::stable_sort(slip.rivals, std::ranges::greater{}, &Rival::probability);
+  }
 }
 
 /// Whether something was found that may make the axis better known than the ideal fit had it.
@@ -191,6 +206,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
   });
 
   out.findings = std::move(explanation.findings);
+  add_delay(ideal, *refit, out);
   out.unexplained = std::move(explanation.unexplained);
   out.verdict = verdict_of(!out.findings.empty(), !out.unexplained.empty());
   const std::vector<Unobservable> hidden = unobservable_effects(
@@ -226,7 +242,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
   });
   if (const std::string why = implausible_size(out); !why.empty())
     for (FitResult* fit : {&out.baseline, &out.named, &out.extended}) refuse(*fit, why);
-  if (out.slip())
+  if (out.slip() && out.slip()->rivals.empty())
     out.remarks.push_back("the part slipped: the axis is that of the part after the slip");
   return out;
 }

@@ -64,6 +64,9 @@ std::string_view template_of(ReasonCode code) {
        "(probability of the slip {probability::.2g}): {remedies}"},
       {part_moved, "{@part_slipped}: the axis given is that of the part after the slip"},
       {slip_unsure, "the part slipped, and its present position is not known"},
+      {late_or_slipped,
+       "{ref}the spindle changes its speed, and X is late< by about {delay:ms:.3g} ms> or the part "
+       "slipped there: give each speed a file of its own"},
       {statement_refuted,
        "{ref}{key} is stated as {stated:usual}, but the readings show {seen:usual} (U, k = 2): "
        "correct the statement, or remove it"},

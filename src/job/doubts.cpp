@@ -128,6 +128,13 @@ std::optional<Reason> slip_unsure_of(const ProbeStream&, const Diagnosis& diagno
   return Reason{ReasonCode::slip_unsure};
 }
 
+std::optional<Reason> late_or_slipped_of(const ProbeStream&, const Diagnosis& diagnosis) {
+  if (!diagnosis.late_s) return {};
+  Reason reason{ReasonCode::late_or_slipped};
+  if (std::isfinite(*diagnosis.late_s)) reason.numbers.push_back({"delay", *diagnosis.late_s, "s"});
+  return reason;
+}
+
 std::optional<Reason> statement_refuted_of(const ProbeStream&, const Diagnosis& diagnosis) {
   for (const RefutedStatement& one : diagnosis.refuted) {
     const InfluenceInfo& info = info_of(one.stated.kind);
@@ -162,6 +169,7 @@ constexpr Threshold of_statement[] = {{"off", refuted_by, "of its u and that of 
                                        "1 of 1000 that are right are beyond"}};
 constinit const AxisDoubt statement_refuted{"statement_refuted", of_statement,
                                             statement_refuted_of};
+constinit const AxisDoubt late_or_slipped{"late_or_slipped", {}, late_or_slipped_of};
 constinit const AxisDoubt slip_unsure{"slip_unsure", {}, slip_unsure_of};
 constinit const AxisDoubt moves_in_pass{"moves_in_pass", of_move, moved_in_pass_of};
 constinit const AxisDoubt moves_with_axis{"moves_with_axis", of_beats, moves_with_axis_of};
@@ -182,10 +190,10 @@ constinit const JobCheck axis_known{
     "axis_known", CheckedAt::references, Weight::leaves_open, {}, find_axis_unknown};
 
 std::span<const AxisDoubt* const> axis_doubts() {
-  static constexpr std::array all{&statement_refuted,  &slip_unsure,   &left_out_at_an_end,
-                                  &far_off_at_the_end, &moves_in_pass, &left_unexplained,
-                                  &moves_with_axis,    &few_angles,    &sensor_at_limit,
-                                  &gauge_inverted};
+  static constexpr std::array all{&statement_refuted,  &late_or_slipped,    &slip_unsure,
+                                  &left_out_at_an_end, &far_off_at_the_end, &moves_in_pass,
+                                  &left_unexplained,   &moves_with_axis,    &few_angles,
+                                  &sensor_at_limit,    &gauge_inverted};
   return all;
 }
 

@@ -28,9 +28,10 @@ extern const AxisDoubt left_unexplained;
 /// the wrong sign.
 extern const AxisDoubt gauge_inverted;
 
-/// All of them: a statement that the readings refute, a slip that is not sure or at an end, a move
-/// within a pass by more than U of the axis (Eq. 314). Also an unexplained residual, a pattern or a
-/// cause that goes with the eccentricity, and angles so few that lobes look like one.
+/// All of them: a statement that the readings refute, a long delay of X. Or a slip that is not sure
+/// or at an end, a move within a pass by more than U of the axis (Eq. 314). Also an unexplained
+/// residual, a pattern or a cause that goes with the eccentricity, and angles so few that lobes
+/// look like one.
 std::span<const AxisDoubt* const> axis_doubts();
 
 /// No reference has a doubt of its axis.

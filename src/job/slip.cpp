@@ -70,7 +70,7 @@ Reasons find_unsure_slip(const CheckInput& in) {
   const IdentifiedJob& job = in.job;
   std::optional<Reason> perhaps;
   for (std::size_t i = 0; i < job.diagnoses.size(); ++i) {
-    if (!job.diagnoses[i] || is_sure_slip(*job.diagnoses[i])) continue;
+    if (!job.diagnoses[i] || is_sure_slip(*job.diagnoses[i]) || job.diagnoses[i]->late_s) continue;
     const Diagnosis& diagnosis = *job.diagnoses[i];
     if (const Finding* slip = diagnosis.slip()) {
       perhaps = slipped(i, *slip, diagnosis.baseline.coverage_factor, ReasonCode::part_slipped);

@@ -17,7 +17,6 @@ namespace {
 
 using namespace step_model;
 
-constexpr double longest_s = 0.1;   // of a delay
 constexpr double steady = 0.02;     // of the speed of a turn: its halves
 constexpr double other = 0.01;      // of a speed
 constexpr double by_chance = 1e-3;  // that a delay is not seen to be one
@@ -91,8 +90,7 @@ CentreStep weighed_with_delay(CentreStep step, const ProbeStream& stream,
   const auto [slow, fast] = range_of(run.speed);
   if (fast - slow <= other * std::max(std::abs(slow), std::abs(fast))) return step;
   const bool timed = !stream.time_s.empty();
-  const double half_round = std::numbers::pi / (fast - slow);
-  const double reach = timed ? std::min(longest_s, half_round) : half_round;
+  const double reach = std::numbers::pi / (fast - slow);  // each angle between two speeds once
 
   const Eigen::MatrixXd straight = line(run.turns);
   const auto n = static_cast<Eigen::Index>(run.turns.size());

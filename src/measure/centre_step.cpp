@@ -80,7 +80,7 @@ std::string moved_text(const CentreStep& step) {
   text += std::isnan(step.delay_s)
               ? "X is late and the speed changed there, or the part slipped"
               : fmt::format(
-                    "the speed changed there and X is {} by about {:.2g} ms, or the part slipped",
+                    "the speed changed there and X is {} by about {:.3g} ms, or the part slipped",
                     step.delay_s < 0.0 ? "early" : "late", 1e3 * std::abs(step.delay_s));
   return text + ". Give each speed a file of its own; `trueaxis diagnose` tells a delay";
 }
