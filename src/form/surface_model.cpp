@@ -208,8 +208,14 @@ std::vector<double> SurfaceModel::profile(const Station& station,
     if (n < 2) amplitude -= amplitudes(station.along, n, mean_);
     if (filtered) amplitude *= band_[static_cast<std::size_t>(n)];
     if (amplitude.isZero(0.0)) continue;
+    // n times the angle is a place of the grid: n modulo its size further from angle to angle.
+    const std::size_t count = cosine_.size(), step = static_cast<std::size_t>(n) % count;
+    std::size_t k = 0, place = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const std::size_t k = station.place[i] * static_cast<std::size_t>(n) % cosine_.size();
+      for (; place < station.place[i]; ++place) {
+        k += step;
+        if (k >= count) k -= count;
+      }
       out[i] += amplitude[0] * cosine_[k] + amplitude[1] * sine_[k];
     }
   }
