@@ -31,22 +31,46 @@ std::vector<double> filtered(const std::vector<double>& profile, double high_upr
   return out;
 }
 
+/// ln Σ exp(s β y) / β of y = h − rows q, and its derivatives by q.
 struct SoftEnd {
   double value = 0.0;
   Eigen::VectorXd slope;
   Eigen::MatrixXd curvature;
 };
 
-/// ln Σ exp(s β y) / β of y = h − rows q, its derivatives by q.
-SoftEnd soft_end(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double beta, double side) {
+/// Calls back with each row that counts and its weight exp(β (s y − largest)): below e^−40 it is
+/// lost in the rounding of the sum.
+template <class Function>
+double for_each_near_end(const Eigen::VectorXd& y, double beta, double side, Function&& function) {
   const double largest = (side * y).maxCoeff();
-  Eigen::VectorXd share = (beta * (side * y.array() - largest)).exp();
-  const double sum = share.sum();
-  share /= sum;
-  const Eigen::VectorXd mean = rows.transpose() * share;
-  SoftEnd out{largest + std::log(sum) / beta, -side * mean, {}};
-  out.curvature = beta * (rows.transpose() * share.asDiagonal() * rows - mean * mean.transpose());
-  return out;
+  for (Eigen::Index i = 0; i < y.size(); ++i)
+    if (const double exponent = beta * (side * y[i] - largest); exponent > -40.0)
+      function(i, std::exp(exponent));
+  return largest;
+}
+
+double soft_value(const Eigen::VectorXd& y, double beta, double side) {
+  double sum = 0.0;
+  const double largest =
+      for_each_near_end(y, beta, side, [&](Eigen::Index, double weight) { sum += weight; });
+  return largest + std::log(sum) / beta;
+}
+
+SoftEnd soft_end(const Eigen::MatrixXd& rows, const Eigen::VectorXd& y, double beta, double side) {
+  const Eigen::Index n = rows.cols();
+  double sum = 0.0;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(n, n);
+  const double largest = for_each_near_end(y, beta, side, [&](Eigen::Index i, double weight) {
+    sum += weight;
+    for (Eigen::Index a = 0; a < n; ++a) {
+      mean[a] += weight * rows(i, a);
+      for (Eigen::Index b = 0; b < n; ++b) products(a, b) += weight * rows(i, a) * rows(i, b);
+    }
+  });
+  mean /= sum;
+  return {largest + std::log(sum) / beta, -side * mean,
+          beta * (products / sum - mean * mean.transpose())};
 }
 
 /// Least range of h − rows q.
@@ -68,7 +92,7 @@ double least_range(const Eigen::MatrixXd& rows, const Eigen::VectorXd& h) {
       double length = 1.0;
       const auto soft = [&](const Eigen::VectorXd& at) {
         const Eigen::VectorXd z = h - rows * at;
-        return soft_end(rows, z, beta, 1.0).value + soft_end(rows, z, beta, -1.0).value;
+        return soft_value(z, beta, 1.0) + soft_value(z, beta, -1.0);
       };
       const double now = high.value + low.value;
       while (length > 1e-3 && soft(q + length * move) > now) length *= 0.5;
