@@ -21,11 +21,11 @@ const shoot = async (page, name) => { if (folder) await page.screenshot({path: j
 /** What is wrong with each chart, seen from inside the page. */
 function inspectCharts() {
   const problems = [];
-  const colours = (canvas) => {
+  const isBlank = (canvas) => {  // fewer than 8 colours
     const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
     const seen = new Set();
-    for (let i = 0; i < data.length; i += 4) seen.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
-    return seen.size;
+    for (let i = 0; i < data.length && seen.size < 8; i += 4) seen.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+    return seen.size < 8;
   };
   /** Every text that is drawn, and where. */
   const texts = (chart) => chart.getZr().storage.getDisplayList(true).filter((e) => e.type === 'tspan' && !e.ignore && !e.invisible && e.style.text).map((e) => {
@@ -33,12 +33,13 @@ function inspectCharts() {
     if (e.transform) box.applyTransform(e.transform);
     return {text: e.style.text, box, middle: box.y + box.height / 2, turned: Math.abs(e.transform?.[1] ?? 0) > 0.1, size: parseFloat(/([\d.]+)px/.exec(e.style.font)?.[1] ?? 12)};
   });
+  const seriesOf = (chart) => chart.getModel().getSeries().map((one) => one.option);  // getOption() copies all data
   const {charts} = window.trueaxisReport;
   charts.forEach((chart, i) => {
     const box = chart.getDom();
     const name = `chart ${i + 1} (${box.closest('section')?.id}: ${box.getAttribute('aria-label') ?? 'no aria-label'})`;
     if (!(box.getAttribute('aria-label')?.length > 12) || box.getAttribute('role') !== 'img') problems.push(`${name}: has no text for screen readers`);
-    const series = chart.getOption().series ?? [];
+    const series = seriesOf(chart);
     if (!series.length) problems.push(`${name}: no series`);
     series.forEach((s) => {
       if (!(s.data?.length > 0)) problems.push(`${name}: series ${s.name ?? s.type} has no data`);
@@ -53,22 +54,23 @@ function inspectCharts() {
     });
     const canvas = box.querySelector('canvas');
     const svg = box.querySelector('svg');
-    if (canvas && colours(canvas) < 8) problems.push(`${name}: the canvas is blank`);
+    if (canvas && isBlank(canvas)) problems.push(`${name}: the canvas is blank`);
     if (svg) {
       const shapes = new Set([...svg.querySelectorAll('path')].map((p) => p.getAttribute('d')));
       if (shapes.size < 8 || !svg.querySelector('text')) problems.push(`${name}: the drawing is blank`);
     }
     if (box.querySelectorAll('canvas').length > 1) problems.push(`${name}: a second canvas, which is blank on paper`);
     if (!canvas && !svg) problems.push(`${name}: nothing is drawn`);
-    const cut = texts(chart).filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
+    const drawn = texts(chart);
+    const cut = drawn.filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
     if (cut.length) problems.push(`${name}: text is cut at the edge: ${cut.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
     // Letters are as high as their font says: a drawing measures lines too low where the font lacks a sign.
-    const all = texts(chart).filter((t) => !t.turned), width = (a, b) => Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x);
+    const all = drawn.filter((t) => !t.turned), width = (a, b) => Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x);
     const on = all.flatMap((a, k) => all.slice(k + 1).filter((b) => width(a.box, b.box) > 4 && Math.abs(a.middle - b.middle) < 0.8 * Math.min(a.size, b.size)).map((b) => `"${a.text}" and "${b.text}"`));
     if (on.length) problems.push(`${name}: texts lie on each other: ${on.slice(0, 3).join(', ')}`);
     const plot = chart.getModel().getComponent('grid')?.coordinateSystem?.getRect();
     const names = new Set(series.map((s) => s.name));
-    const over = !plot || plot.height < 100 ? [] : texts(chart).filter(({text, box: at}) => names.has(text) && at.x + at.width > plot.x + 1 && at.y + at.height > plot.y + 1 && at.y < plot.y + plot.height);
+    const over = !plot || plot.height < 100 ? [] : drawn.filter(({text, box: at}) => names.has(text) && at.x + at.width > plot.x + 1 && at.y + at.height > plot.y + 1 && at.y < plot.y + plot.height);
     if (over.length) problems.push(`${name}: the legend lies on the plot: ${over.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
   });
   return {count: charts.length, problems};
@@ -207,7 +209,7 @@ async function look(browser, {name, width, height}) {
     const cut = await page.evaluate(() => [...document.querySelectorAll('.wide .scroll')].filter((box) => box.scrollWidth > box.clientWidth).length);
     console.log(`${name}: ${cut} wide tables scroll`);
     const curves = await page.evaluate(() => window.trueaxisReport.charts.filter((c) => c.getDom().closest('#error'))
-      .flatMap((c) => c.getOption().series).filter((s) => s.type === 'scatter').length);
+      .flatMap((c) => c.getModel().getSeries()).filter((s) => s.subType === 'scatter').length);
     if (curves) console.log(`${name}: ${curves} curves of errors`);
   } catch (error) {
     problems.push(`the page does not get ready: ${error.message}`);
