@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What commands print: at most 18 lines for an ordinary case, values with the digits of their U, no
 // number that means "never".
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -22,20 +23,33 @@ std::string forced(const std::string& one) {
 
 std::size_t lines_of(const std::string& text) { return std::ranges::count(text, '\n'); }
 
-class Screens : public CommandTest {
+/// Every command runs once on each terminal and once in a pipe: the tests look at what it said.
+class Screens : public ::testing::Test {
  protected:
-  void SetUp() override {
-    CommandTest::SetUp();
+  static void SetUpTestSuite() {
+    folder_ = fresh_folder("command/Screens");
     std::filesystem::create_directory_symlink(places::source() + "/data", folder_ / "data");
   }
+  static const TerminalRun& on_screen(const std::string& one, unsigned short columns) {
+    static std::map<std::pair<std::string, unsigned short>, TerminalRun> known;
+    const auto [at, is_new] = known.try_emplace({one, columns});
+    if (is_new) at->second = on_terminal(folder_, "NO_COLOR=1 trueaxis " + one, columns);
+    return at->second;
+  }
+  static const CommandStreams& in_pipe(const std::string& one, const std::string& how = "") {
+    static std::map<std::string, CommandStreams> known;
+    const auto [at, is_new] = known.try_emplace(one + how);
+    if (is_new) at->second = run_in(folder_, one + how + forced(one));
+    return at->second;
+  }
   /// On a terminal of 80 columns, where lines wrap.
-  void expect_a_screen(const std::string& one) {
-    const TerminalRun run = on_terminal(folder_, "NO_COLOR=1 trueaxis " + one, 80);
+  static void expect_a_screen(const std::string& one) {
+    const TerminalRun& run = on_screen(one, 80);
     EXPECT_EQ(run.exit_code, 0) << one << '\n' << run.shown;
     EXPECT_LE(lines_of(run.shown), 18u) << one << '\n' << run.shown;
   }
   /// All commands whose screens are shipped cases, with what they write in the test's folder.
-  std::vector<std::string> machine_commands() {
+  static std::vector<std::string> machine_commands() {
     return {"run " + of + "jobs/blade.toml -o blade",
             "machine calibrate --machine " + machines + "trunnion_ac.toml " + machines +
                 "trunnion_ac_ball.csv -o c.toml",
@@ -49,7 +63,7 @@ class Screens : public CommandTest {
             "machine compensate " + machines + "holes.nc --machine " + machines +
                 "zxacy.toml --errors " + machines + "zxacy_errors.toml -o holes.nc"};
   }
-  std::vector<std::string> lathe_commands() {
+  static std::vector<std::string> lathe_commands() {
     std::vector<std::string> all{"run " + of + "streams/shaft_three_lobes.csv -o alone"};
     for (const char* const name : {"shaft", "shaft_three_lobes", "bushing"})
       all.push_back(std::string("run ")
@@ -71,6 +85,8 @@ class Screens : public CommandTest {
                           .append(surface));
     return all;
   }
+
+  static inline std::filesystem::path folder_;
 };
 
 TEST_F(Screens, OfMachinesFitAndBeginWithWhatWasDecided) {
@@ -78,7 +94,7 @@ TEST_F(Screens, OfMachinesFitAndBeginWithWhatWasDecided) {
       "^(GO|NO-GO|NOT PROVEN|DONE|IDEAL|EFFECTS|UNEXPLAINED|FOUND|NEXT)[^\n]*: ");
   for (const std::string& one : machine_commands()) {
     expect_a_screen(one);
-    const CommandStreams done = command(one + forced(one));
+    const CommandStreams& done = in_pipe(one);
     ASSERT_EQ(done.exit_code, 0) << one << '\n' << done.err;
     EXPECT_TRUE(std::regex_search(done.out, verdict)) << one << '\n' << done.out;
     EXPECT_TRUE(contains(done.out, "\nnext   ") || done.out.starts_with("NEXT")) << done.out;
@@ -99,7 +115,7 @@ TEST_F(Screens, KeepToTheTerminal) {
   all.push_back("run " + of + "jobs/measured.toml -o measured");
   for (const unsigned short columns : {80, 120})
     for (const std::string& one : all) {
-      const TerminalRun run = on_terminal(folder_, "NO_COLOR=1 trueaxis " + one, columns);
+      const TerminalRun& run = on_screen(one, columns);
       EXPECT_EQ(run.exit_code, 0) << one;
       EXPECT_FALSE(std::regex_search(run.shown, torn)) << run.shown;
       std::istringstream lines(run.shown);
@@ -124,7 +140,7 @@ TEST_F(Screens, ValuesHaveTheDigitsOfTheirU) {
   std::size_t pairs = 0;
   for (const std::string& one : all)
     for (const char* const how : {"", " --verbose"}) {
-      const std::string text = command(std::string(one).append(how).append(forced(one))).out;
+      const std::string& text = in_pipe(one, how).out;
       for (auto at = std::sregex_iterator(text.begin(), text.end(), pair);
            at != std::sregex_iterator(); ++at, ++pairs) {
         EXPECT_EQ((*at)[2].length(), (*at)[4].length()) << one << how << ": " << at->str();
@@ -140,7 +156,7 @@ TEST_F(Screens, NoNumberMeansNever) {
       "(^|[^.0-9])[0-9]{5,}(\\.[0-9]+)? (mm|rpm|deg|s)\\b|[0-9]e\\+?[0-9]+ (mm|µm|deg|rpm|s)\\b");
   for (const std::string& one : lathe_commands())
     for (const char* const how : {"", " --verbose"}) {
-      const std::string text = command(std::string(one).append(how).append(forced(one))).out;
+      const std::string& text = in_pipe(one, how).out;
       std::smatch found;
       EXPECT_FALSE(std::regex_search(text, found, never)) << one << how << ": " << found.str();
     }

@@ -108,7 +108,7 @@ TEST_F(SweepMpi, RanksGiveTheBytesOfOneProcess) {
 }
 
 TEST_F(SweepMpi, EndsWhenARankDiesAndGoesOnFromThere) {
-  file("long.toml", sweep_text(5000));
+  file("long.toml", sweep_text(1500));
   ASSERT_EQ(command("study sweep long.toml -o whole").exit_code, 0);
   const std::uintmax_t all = fs::file_size(folder_ / "whole/journal.bin");
   std::uintmax_t wanted = all / 10;

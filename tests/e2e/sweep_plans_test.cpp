@@ -9,18 +9,19 @@
 namespace trueaxis::testing {
 namespace {
 
-class SweepPlans : public CommandTest {
+class SweepPlans : public ::testing::Test {
  protected:
-  void SetUp() override {
-    CommandTest::SetUp();
+  /// The sweep is made once: the tests look at its results.
+  static void SetUpTestSuite() {
+    folder_ = fresh_folder("command/SweepPlans");
     const CommandStreams done =
-        command("study sweep '" + places::source() + "/data/sweeps/plans.toml' -o out");
+        run_in(folder_, "study sweep '" + places::source() + "/data/sweeps/plans.toml' -o out");
     ASSERT_EQ(done.exit_code, 0) << done.err;
-    json_ = result("out/sweep.json");
+    json_ = read_json(folder_ / "out/sweep.json");
   }
 
-  const nlohmann::json& cell(const std::string& plan, const std::string& probe,
-                             const std::string& method) const {
+  static const nlohmann::json& cell(const std::string& plan, const std::string& probe,
+                                    const std::string& method) {
     for (const nlohmann::json& one : json_["cells"]) {
       if (one["at"] == nlohmann::json{{"plan", plan}, {"probe", probe}} && one["method"] == method)
         return one;
@@ -42,7 +43,8 @@ class SweepPlans : public CommandTest {
         << name << ' ' << cell["at"] << ' ' << cell["method"];
   }
 
-  nlohmann::json json_;
+  static inline std::filesystem::path folder_;
+  static inline nlohmann::json json_;
 };
 
 TEST_F(SweepPlans, EachCellHasItsPassesAndEffects) {
