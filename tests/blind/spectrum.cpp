@@ -22,8 +22,9 @@ std::vector<double> strongest_lines(const Eigen::VectorXd& values, const Eigen::
   Eigen::ArrayXd next(re.size());
   std::vector<std::pair<double, double>> lines;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const double power = re.sum() * re.sum() + im.sum() * im.sum();
-    lines.emplace_back(power, band.low + step * static_cast<double>(k));
+    const double real = re.sum(), imaginary = im.sum();
+    lines.emplace_back(real * real + imaginary * imaginary,
+                       band.low + step * static_cast<double>(k));
     next = re * cosine - im * sine;
     im = re * sine + im * cosine;
     re = next;
