@@ -28,9 +28,6 @@ namespace {
 
 constexpr std::size_t quickly_fitted = 200000;  // readings, in 5 ms: no thread is worth starting
 
-/// What a user states of a surface and its readings, the same for every function that fits one.
-using Association = cli::AssociationOptions;
-
 void expect_one_sensor(const ProbeStream& stream) {
   if (!stream.more_reading_mm.empty())
     throw InputError(stream.source, "has several sensors: they belong to spindle()");
@@ -51,10 +48,10 @@ FitResult fit_as_asked(const ProbeStream& stream, const FitOptions& options, boo
   return cli::checked_fit(stream, options);
 }
 
-Outcome fit_of(const Stream& stream, const Association& association, bool checked,
+Outcome fit_of(const Stream& stream, const FitOptions& options, bool checked,
                const py::object& progress) {
   const auto work = [&] {
-    auto found = std::make_shared<Fitted>(Fitted{stream, association.chosen(), {}});
+    auto found = std::make_shared<Fitted>(Fitted{stream, options, {}});
     found->result = fit_as_asked(*stream, found->options, checked);
     cli::expect_enough_readings(found->result);
     return std::shared_ptr<const Fitted>(found);
@@ -73,10 +70,9 @@ Outcome fit_of(const Stream& stream, const Association& association, bool checke
 }
 
 /// Seconds that a fit takes in C++, of a stream or from its arrays: scripts/bench_python compares.
-double seconds_per_fit(const Stream& stream, const Association& association, bool checked,
-                       int repeats, bool from_arrays) {
+double seconds_per_fit(const Stream& stream, const FitOptions& options, bool checked, int repeats,
+                       bool from_arrays) {
   using Clock = std::chrono::steady_clock;
-  const FitOptions options = association.chosen();
   const auto begun = Clock::now();
   for (int i = 0; i < repeats; ++i) {
     if (from_arrays) {
@@ -101,12 +97,12 @@ struct DiagnosisOutcome : Outcome {
   std::shared_ptr<const Diagnosed> diagnosed;
 };
 
-DiagnosisOutcome diagnosis_of(const Stream& stream, const Association& association,
-                              double false_alarm, const py::object& progress) {
+DiagnosisOutcome diagnosis_of(const Stream& stream, const FitOptions& options, double false_alarm,
+                              const py::object& progress) {
   const auto found = stoppable(progress, [&] {
     auto one = std::make_shared<Diagnosed>();
     one->stream = stream;
-    one->options.fit = association.chosen();
+    one->options.fit = options;
     one->options.false_alarm = false_alarm;
     expect_one_sensor(*stream);
     expect_one_surface(*stream, one->options.fit.surface, RangesAs::options);
@@ -197,12 +193,14 @@ Outcome correction_of(const DiagnosisOutcome& diagnosis, const std::string& targ
   return out;
 }
 
+/// What a user states of a surface and its readings: read once, the same for every function that
+/// fits one.
 void bind_association(py::module_& module) {
-  py::class_<Association>(module, "Association")
+  py::class_<FitOptions>(module, "Association")
       .def(py::init([](const std::string& surface, const std::string& loss, bool bore,
                        double ball_radius_mm, std::optional<double> noise_um,
                        const std::vector<std::string>& known, double coverage_factor) {
-        Association one;
+        cli::AssociationOptions one;
         one.surface = surface;
         one.loss = loss;
         one.fit.bore = bore;
@@ -210,7 +208,7 @@ void bind_association(py::module_& module) {
         one.noise_um = noise_um.value_or(-1.0);
         one.known = known;
         one.fit.coverage_factor = coverage_factor;
-        return one;
+        return one.chosen();
       }));
 }
 

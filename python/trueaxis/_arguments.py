@@ -33,6 +33,10 @@ def _is_path(value: Any) -> bool:
     return isinstance(value, (str, os.PathLike))
 
 
+def _anything(_: Any) -> bool:
+    return True
+
+
 def _are(test: Callable[[Any], bool]) -> Callable[[Any], bool]:
     return lambda values: isinstance(values, (list, tuple, np.ndarray)) and all(test(one) for one in values)
 
@@ -76,17 +80,23 @@ def with_checked_arguments(function: _Function) -> _Function:
         if name != "return" and kind in _KINDS:
             kinds[name] = (*_KINDS[kind], kind != annotation or kind == "Progress")
     order = function.__code__.co_varnames[:function.__code__.co_argcount]
+    fine: set[tuple[str, type]] = set()  # fits whatever the value: a call in a row is looked at in no time
+
+    def look(stated: Mapping[str, Any]) -> None:
+        wrong = []
+        for name, value in stated.items():
+            fits, what, optional = kinds.get(name, (_anything, "", True))
+            if not (fits(value) or (optional and value is None)):
+                wrong.append(f"{name}: {reprlib.repr(value)} is not {what}{_remedy(value, what)}")
+            elif not isinstance(value, (list, tuple, np.ndarray, Mapping)):
+                fine.add((name, type(value)))
+        if wrong:
+            raise InputError("\n".join(wrong))
 
     @functools.wraps(function)
     def call(*args: Any, **given: Any) -> Any:
-        wrong = []
-        for name, value in (*zip(order, args), *given.items()):
-            if name in kinds:
-                fits, what, optional = kinds[name]
-                if not (fits(value) or (optional and value is None)):
-                    wrong.append(f"{name}: {reprlib.repr(value)} is not {what}{_remedy(value, what)}")
-        if wrong:
-            raise InputError("\n".join(wrong))
+        if not (fine.issuperset(zip(order, map(type, args))) and fine.issuperset(zip(given, map(type, given.values())))):
+            look({**dict(zip(order, args)), **given})
         return function(*args, **given)
 
     call.__kwdefaults__ = function.__kwdefaults__  # stream() and read() list them

@@ -13,7 +13,7 @@ import numpy as np
 from . import _core
 from ._arguments import with_checked_arguments
 from ._errors import InputError, ended
-from ._result import Result
+from ._result import Result, Written
 from ._streams import Path
 from ._toml import Document, as_file
 from ._work import Progress, Shown
@@ -50,7 +50,7 @@ def _run(words: Sequence[str], doing: str, progress: Progress, json: FilePath, f
     text = json.read_text(encoding="utf-8") if json.is_file() else ""
     if folder is not None and scratch:  # it is gone when the screen is read: its files are result.files
         screen, said = (one.replace(f"{folder}{os.sep}", "") for one in (screen, said))
-    result = Result(lambda: text, lambda: screen, None, None, files) if text else None
+    result = Result(Written(text, screen, files)) if text else None
     if result is None or code > 1 or (code == 1 and not verdict):
         raise ended(code, said, result)
     return result

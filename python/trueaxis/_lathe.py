@@ -289,7 +289,7 @@ def correct(diagnosis: Result, target: Document, *, progress: Progress = None) -
     Refused
         If the table must not be run; ``error.result`` has the verdict.
     """
-    outcome = diagnosis._outcome if isinstance(diagnosis, Result) else None
+    outcome = diagnosis._found if isinstance(diagnosis, Result) else None
     if not isinstance(outcome, _core.DiagnosisOutcome):
         raise InputError("diagnosis: give what diagnose() returns")
     with as_file(target, "target.toml") as path, Shown("correction", progress) as shown:

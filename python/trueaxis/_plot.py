@@ -165,7 +165,7 @@ def _of_correction(result: Result) -> Figure:
 
 
 def _of_run(result: Result) -> Figure | None:
-    if result._outcome is None:
+    if "c_rad" not in result._found.arrays:
         return _of_job(result)
     return _of_correction(result) if len(result.c_rad) else None
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Callable, Iterator, Mapping
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Protocol
 
 from . import _plot
 from ._errors import ended
 from ._streams import Stream
-from ._values import Node, frozen, quantities
+from ._values import Floats, Node, frozen, quantities
 
 if TYPE_CHECKING:
     import pandas
@@ -23,22 +22,57 @@ if TYPE_CHECKING:
 _set = object.__setattr__
 
 
+class Found(Protocol):
+    """What a result is made of: texts that are made when they are asked for, and arrays."""
+
+    def json(self) -> str: ...
+    def screen(self) -> str: ...
+    def file(self, name: str) -> str: ...
+    def array(self, name: str) -> Floats: ...
+    @property
+    def files(self) -> list[str]: ...
+    @property
+    def arrays(self) -> list[str]: ...
+
+
+class Written:
+    """What a command wrote."""
+
+    arrays: list[str] = []
+
+    def __init__(self, json: str, screen: str, texts: Mapping[str, str]) -> None:
+        self._json, self._screen, self._texts = json, screen, dict(texts)
+        self.files = list(texts)
+
+    def json(self) -> str:
+        return self._json
+
+    def screen(self) -> str:
+        return self._screen
+
+    def file(self, name: str) -> str:
+        return self._texts[name]
+
+    def array(self, name: str) -> Floats:
+        raise KeyError(name)
+
+
 class _Files(Mapping[str, str]):
     """Texts that are made when they are asked for."""
 
-    def __init__(self, outcome: _core.Outcome) -> None:
-        self._outcome = outcome
+    def __init__(self, found: Found) -> None:
+        self._found = found
 
     def __getitem__(self, name: str) -> str:
-        if name not in self._outcome.files:
+        if name not in self._found.files:
             raise KeyError(name)
-        return self._outcome.file(name)
+        return self._found.file(name)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._outcome.files)
+        return iter(self._found.files)
 
     def __len__(self) -> int:
-        return len(self._outcome.files)
+        return len(self._found.files)
 
 
 class Result:
@@ -54,28 +88,23 @@ class Result:
         The readings.
     """
 
-    __slots__ = ("_make", "_screen", "_outcome", "_json", "_tree", "_files", "stream")
+    __slots__ = ("_found", "_json", "_tree", "stream")
 
-    _files: Mapping[str, str]
     stream: Stream | None
-    _outcome: _core.Outcome | None
+    _found: Found
     _json: str | None
     _tree: Node | None
 
-    def __init__(self, make: Callable[[], str], screen: Callable[[], str], stream: Stream | None = None,
-                 outcome: _core.Outcome | None = None, files: Mapping[str, str] = MappingProxyType({})) -> None:
-        _set(self, "_make", make)
-        _set(self, "_screen", screen)
-        _set(self, "_outcome", outcome)
+    def __init__(self, found: Found, stream: Stream | None = None) -> None:
+        _set(self, "_found", found)
         _set(self, "_json", None)
         _set(self, "_tree", None)
-        _set(self, "_files", files)
         _set(self, "stream", stream)
 
     @property
     def files(self) -> Mapping[str, str]:
         """Text of each file that the command would write, by its name: ``report.html``, ``table.csv``."""
-        return MappingProxyType(dict(self._files)) if self._outcome is None else _Files(self._outcome)
+        return _Files(self._found)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError("a result does not change")
@@ -95,7 +124,7 @@ class Result:
     def to_json(self) -> str:
         """Returns the text that the command writes with ``--json``."""
         if self._json is None:
-            _set(self, "_json", self._make())
+            _set(self, "_json", self._found.json())
         return str(self._json)
 
     def to_dict(self) -> dict[str, Any]:
@@ -111,8 +140,8 @@ class Result:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
-        if self._outcome is not None and name in self._outcome.arrays:
-            return self._outcome.array(name)
+        if name in self._found.arrays:
+            return self._found.array(name)
         tree = self._all()
         for part in (tree, *self._parts()):
             if name in part:
@@ -130,8 +159,7 @@ class Result:
         return list(dict.fromkeys(one.why for part in parts for _, one in quantities(part) if one.why))
 
     def _names(self) -> list[str]:
-        arrays = [] if self._outcome is None else self._outcome.arrays
-        return [*self._all(), *(name for part in self._parts() for name in part), *arrays]
+        return [*self._all(), *(name for part in self._parts() for name in part), *self._found.arrays]
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._names()]
@@ -158,7 +186,7 @@ class Result:
         return _plot.figure_of(self)
 
     def __str__(self) -> str:
-        return str(self._screen()).rstrip("\n")
+        return str(self._found.screen()).rstrip("\n")
 
     def __repr__(self) -> str:
         lines = str(self).splitlines()
@@ -170,7 +198,7 @@ class Result:
 
 def result_of(outcome: _core.Outcome, stream: Stream | None = None) -> Result:
     """Returns the result of an outcome, or raises what the command ends with."""
-    result = Result(outcome.json, outcome.screen, stream, outcome)
+    result = Result(outcome, stream)
     if outcome.code != 0:
         raise ended(outcome.code, "\n".join([outcome.why, *result._reasons(outcome.code)]), result)
     return result

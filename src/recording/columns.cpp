@@ -249,30 +249,40 @@ std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsS
 
 std::string columns_suggested(const Recording& recording) {
   if (is_probe_log(recording)) return "X=1[mm],C=6[deg],Z=3[mm]";
-  std::string x = "X=…", c = "C=…", z = "Z=…";
+  using enum RecordedRole;
+  const auto named_so = [&](RecordedRole role) {
+    return std::ranges::any_of(recording.columns, [&](const RecordedColumn& column) {
+      const auto named = role_of_name(column.name);
+      return named && named->role == role && !named->vague;
+    });
+  };
+  // A stream needs the first three; the others are there if the header names them.
+  std::vector<std::pair<RecordedRole, std::string>> items{{x, ""}, {c, ""}, {z, ""}};
+  if (named_so(face)) items = {{face, ""}, {c, ""}, {x, ""}};
+  for (const RecordedRole role : {t, pass, setup})
+    if (named_so(role)) items.emplace_back(role, "");
   for (const bool vague : {false, true})
     for (std::size_t k = 0; k < recording.columns.size(); ++k) {
       const auto named = role_of_name(recording.columns[k].name);
       const bool unknown = !named && is_unknown_length(recording, k);
       if ((!named && !unknown) || (unknown || named->vague) != vague) continue;
       const std::string& unit = recording.columns[k].unit;
-      const RecordedRole role = unknown                                            ? RecordedRole::z
-                                : vague && stream_unit(RecordedRole::c, unit, "*") ? RecordedRole::c
-                                                                                   : named->role;
-      std::string* item = role == RecordedRole::x   ? &x
-                          : role == RecordedRole::c ? &c
-                          : role == RecordedRole::z ? &z
-                                                    : nullptr;
-      if (item == nullptr || !item->ends_with("…")) continue;
+      const RecordedRole role = unknown ? z : vague && stream_unit(c, unit, "*") ? c : named->role;
+      const auto item = std::ranges::find(items, role, [](const auto& one) { return one.first; });
+      if (item == items.end() || !item->second.empty()) continue;
       const bool said = stream_unit(role, unit, language_of(recording)).has_value();
       const auto meant = stream_unit(role, unit, "*");  // "Grad", where it is a degree
-      *item = std::string(word_of(role)) + "=" + std::to_string(k + 1);
-      if (unit.empty() && recording.of_numbers)
-        *item += fmt::format("[{}]", default_unit(role));
+      item->second = std::to_string(k + 1);
+      if (unit.empty() && recording.of_numbers && *default_unit(role) != '\0')
+        item->second += fmt::format("[{}]", default_unit(role));
       else if (!unit.empty() && !said)
-        *item += "[" + meant.value_or("…") + "]";
+        item->second += "[" + meant.value_or("…") + "]";
     }
-  return x + "," + c + "," + z;
+  std::string text;
+  for (const auto& [role, column] : items)
+    text += fmt::format("{}{}={}", text.empty() ? "" : ",", word_of(role),
+                        column.empty() ? "…" : column);
+  return text;
 }
 
 }  // namespace trueaxis

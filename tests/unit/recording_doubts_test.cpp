@@ -66,6 +66,26 @@ TEST_F(RecordingDoubts, CommasThatMayPartThousandsAreAsked) {
               "holds no table of numbers with decimal points");
 }
 
+TEST_F(RecordingDoubts, TheProposalHasEveryColumnThatTheHeaderNames) {
+  const std::string rows = "0,20.1,5,1,1\n0.5,20.2,95,2,1\n1,20.1,185,3,2\n";
+  const std::string text = "t_s,reading,C,Z,pass\n" + rows;
+  expect_said(refusal(text), "--columns X=…,C=3,Z=4,t=1,pass=5 ");
+  const ProbeStream stream = read(text, "X=2,C=3,Z=4,t=1,pass=5", false);
+  EXPECT_EQ(stream.time_s, (Readings{0.0, 0.5, 1.0}));
+  EXPECT_EQ(stream.pass, (std::vector<int>{1, 1, 2}));
+  for (const std::string& note : stream.read_as)
+    EXPECT_EQ(note.find("not used"), std::string::npos) << note;
+  // Neither a column that no word of the header names, nor one that is not there.
+  expect_said(refusal("foo,reading,C,Z,bar\n" + rows), "--columns X=…,C=3,Z=4 ");
+  write_text(path_, "time [ms],Z_M[mm],Angle,X[mm],load\n" + rows);
+  try {
+    import_recording(path_, {});
+    FAIL() << "X of a face may be a diameter";
+  } catch (const InputError& error) {
+    expect_said(error.what(), "--columns Z_M=2,C=3,X=4,t=1 ");
+  }
+}
+
 TEST_F(RecordingDoubts, OneNumberThatCannotBeThousandsTells) {
   for (const char* angle : {"0.512", "12.5", "1234.567"})
     EXPECT_EQ(read(fmt::format("C;Radius;Z\n{};20.100;1\n90;20.200;2\n", angle)).reading_mm,
