@@ -7,29 +7,31 @@
 #include <string_view>
 #include <vector>
 
+#include "nc/probing/approach.hpp"
 #include "nc/probing/probing.hpp"
 
 namespace trueaxis::nc {
 
-/// Touch points of a pass: each moves from clear X to at most `stop` and back.
+/// Touch points of a pass: each moves from the clear position to at most `stop` and back.
 struct TouchRun {
   int pass = 1;
-  bool rear = false;
+  Approach approach;
   std::size_t count = 0;
   double c_deg = 0.0, c_step_deg = 0.0;  ///< of the first, and from one to the next
-  double z_mm = 0.0, z_step_mm = 0.0;
-  double stop_mm = 0.0, stop_step_mm = 0.0;  ///< X, signed; of a dry run where it turns back
+  double along_mm = 0.0, along_step_mm = 0.0;
+  double stop_mm = 0.0, stop_step_mm = 0.0;  ///< of the axis; of a dry run where it turns back
 };
 
 /// A place on a pass that is read while the spindle turns.
 struct ScanPoint {
   double c_deg = 0.0;  ///< from the start of the run-in
-  double x_mm = 0.0, z_mm = 0.0;
+  double along_mm = 0.0, met_mm = 0.0;
 };
 
 /// A pass that is read without stop: run-in, readings, run-out.
 struct ScanRun {
   int pass = 1;
+  Approach approach;
   double rpm = 0.0;      ///< 0: at standstill
   double seconds = 0.0;  ///< of a standing capture
   ScanPoint begin, end;
@@ -50,8 +52,7 @@ class Dialect {
   virtual void begin(const std::vector<std::string>& remarks,
                      const std::vector<std::string>& log) = 0;
   virtual void remark(const std::string& words) = 0;
-  virtual void rapid_x(double x_mm) = 0;
-  virtual void rapid_z(double z_mm) = 0;
+  virtual void rapid(char axis, double mm) = 0;
   virtual void touch(const TouchRun& run) = 0;
   virtual void scan(const ScanRun&) {}
   virtual void end() = 0;

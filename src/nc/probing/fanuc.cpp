@@ -6,8 +6,8 @@
 namespace trueaxis::nc {
 namespace {
 
-/// Custom macro B: G31 and DPRNT. #101 counts, #102 is C, #103 its word, #104 Z, #105 where X
-/// stops.
+/// Custom macro B: G31 and DPRNT. #101 counts, #102 is C, #103 its word, #104 where the
+/// pass is, #105 where the probe stops.
 class Fanuc final : public Dialect {
  public:
   using Dialect::Dialect;
@@ -22,7 +22,7 @@ class Fanuc final : public Dialect {
     remark("axis 1 is X; call the probe, its offset and the C axis before");
     line("G21 G18 G40 G80 " + limits_.offset());
     line(limits_.gcode_system == 'A' ? "G98" : "G90 G94");
-    line(fmt::format("IF[#5041GE{}]GOTO10", x(limits_.clear_x_mm())));
+    line(fmt::format("IF[#5041GE{}]GOTO10", value('X', limits_.clear_x_mm())));
     line(fmt::format("IF[#5042GE{}]GOTO10", number(limits_.clear_z_mm())));
     line("#3000=1(THE PROBE IS NOT CLEAR)");
     line("N10");
@@ -32,26 +32,29 @@ class Fanuc final : public Dialect {
   }
 
   void remark(const std::string& words) override { line(fmt::format("( {} )", words)); }
-  void rapid_x(double x_mm) override { line("G0 X" + x(x_mm)); }
-  void rapid_z(double z_mm) override { line("G0 Z" + number(z_mm)); }
+  void rapid(char axis, double to_mm) override {
+    line(fmt::format("G0 {}{}", axis, value(axis, to_mm)));
+  }
 
   void touch(const TouchRun& run) override {
     line("#101=0");
     line(fmt::format("WHILE[#101LT{}]DO1", run.count));
-    line("#102=" + along(run.c_deg, run.c_step_deg));
+    line("#102=" + each('C', run.c_deg, run.c_step_deg));
     line("#103=#102-FIX[#102/360.]*360.");
     line("IF[#103LT0]THEN #103=#103+360.");
-    line("#104=" + along(run.z_mm, run.z_step_mm));
-    const double scale = limits_.x_diameter ? 2.0 : 1.0;
-    line("#105=" + along(scale * run.stop_mm, scale * run.stop_step_mm));
-    line("G0 Z#104 C#103");
-    line(
-        fmt::format("{} X#105 F{}", dry_run_ ? "G1" : "G31", number(60.0 * limits_.feed_mm_per_s)));
+    const char axis = run.approach.axis, along = run.approach.along();
+    const std::string met = axis == 'X' ? "#5061" : "#5062";
+    line("#104=" + each(along, run.along_mm, run.along_step_mm));
+    line("#105=" + each(axis, run.stop_mm, run.stop_step_mm));
+    line(fmt::format("G0 {}#104 C#103", along));
+    line(fmt::format("{} {}#105 F{}", dry_run_ ? "G1" : "G31", axis,
+                     number(60.0 * limits_.feed_mm_per_s)));
     if (!dry_run_) {
-      line("IF[ABS[#5061-#105]LT0.001]THEN #3000=2(NO CONTACT)");
-      line(fmt::format("DPRNT[X#5061[44]*C#102[64]*Z#104[44]*P{}]", run.pass));
+      line(fmt::format("IF[ABS[{}-#105]LT0.001]THEN #3000=2(NO CONTACT)", met));
+      line(fmt::format("DPRNT[X{}[44]*C#102[64]*Z{}[44]*P{}]", axis == 'X' ? met : "#104",
+                       axis == 'Z' ? met : "#104", run.pass));
     }
-    line("G0 X" + x(run.rear ? -limits_.clear_x_mm() : limits_.clear_x_mm()));
+    rapid(axis, run.approach.clear_mm);
     line("#101=#101+1");
     line("END1");
   }
@@ -72,10 +75,12 @@ class Fanuc final : public Dialect {
     if (text.find('.') == std::string::npos) text += '.';
     return text;
   }
-  std::string x(double value) const { return number(limits_.x_diameter ? 2.0 * value : value); }
-  static std::string along(double first, double each) {
-    if (each == 0.0) return number(first, 5);
-    return fmt::format("{}+[{}]*#101", number(first, 5), number(each, 8));
+  double scale(char axis) const { return axis == 'X' && limits_.x_diameter ? 2.0 : 1.0; }
+  std::string value(char axis, double mm) const { return number(scale(axis) * mm); }
+  /// Of touch point #101.
+  std::string each(char axis, double first, double more) const {
+    const std::string text = number(scale(axis) * first, 5);
+    return more == 0.0 ? text : fmt::format("{}+[{}]*#101", text, number(scale(axis) * more, 8));
   }
   static std::string starred(std::string words) {
     for (char& c : words)

@@ -16,8 +16,9 @@ std::string with_sign(double value, int decimals = 4) {
   return text[0] == '-' ? text : '+' + text;
 }
 
-/// Klartext: touch probe cycle 3 and FN 16. Q10 counts, Q11 is C, Q12 its word, Q13 Z, Q14 the way
-/// of the probe; Q31 to Q34 are what the cycle measured. QS1 is a line of the log.
+/// Klartext: touch probe cycle 3 and FN 16. Q10 counts, Q11 is C, Q12 its word, Q13 where the
+/// pass is, Q14 the way of the probe; Q31 to Q34 are what the cycle measured. QS1 is a line of the
+/// log.
 class Heidenhain final : public Dialect {
  public:
   using Dialect::Dialect;
@@ -47,39 +48,40 @@ class Heidenhain final : public Dialect {
   }
 
   void remark(const std::string& words) override { block("; " + words); }
-  void rapid_x(double x_mm) override { block(fmt::format("L X{} R0 FMAX", with_sign(x_mm))); }
-  void rapid_z(double z_mm) override { block(fmt::format("L Z{} R0 FMAX", with_sign(z_mm))); }
+  void rapid(char axis, double to_mm) override {
+    block(fmt::format("L {}{} R0 FMAX", axis, with_sign(to_mm)));
+  }
 
   void touch(const TouchRun& run) override {
     const int label = first_pass + run.pass;
-    const double side = run.rear ? -1.0 : 1.0;
+    const Approach& way = run.approach;
     const std::string feed = short_number(60.0 * limits_.feed_mm_per_s, 3);
     block("Q10 = 0");
     block(fmt::format("LBL {}", label));
-    block("Q11 = " + along(run.c_deg, run.c_step_deg, run));
+    block("Q11 = " + each(run.c_deg, run.c_step_deg, run));
     const double lowest =
         std::min(run.c_deg, run.c_deg + run.c_step_deg * static_cast<double>(run.count));
     block(fmt::format("Q12 = Q11 + {}",
                       short_number(std::max(0.0, -360.0 * std::floor(lowest / 360.0)), 0)));
     block("Q12 = Q12 - 360 * INT ( Q12 / 360 )");
-    block("Q13 = " + along(run.z_mm, run.z_step_mm, run));
+    block("Q13 = " + each(run.along_mm, run.along_step_mm, run));
     block("Q14 = " +
-          along(limits_.clear_x_mm() - side * run.stop_mm, -side * run.stop_step_mm, run));
-    block("L Z+Q13 C+Q12 R0 FMAX");
+          each(way.sense * (run.stop_mm - way.clear_mm), way.sense * run.stop_step_mm, run));
+    block(fmt::format("L {}+Q13 C+Q12 R0 FMAX", way.along()));
     if (dry_run_) {
-      block(fmt::format("L X{} R0 F{}", with_sign(run.stop_mm), feed));
+      block(fmt::format("L {}{} R0 F{}", way.axis, with_sign(run.stop_mm), feed));
     } else {
       block("Q34 = - 1");
       block("TCH PROBE 3.0 MEASURING");
       block("TCH PROBE 3.1 Q31");
-      block(fmt::format("TCH PROBE 3.2 X ANGLE: {}", run.rear ? "+0" : "+180"));
+      block(fmt::format("TCH PROBE 3.2 {} ANGLE: {}", way.axis, way.sense > 0.0 ? "+0" : "+180"));
       block(fmt::format("TCH PROBE 3.3 ABST +Q14 F{} MB{} REFERENCE SYSTEM: 0", feed,
                         short_number(limits_.clearance_mm, 4)));
       block("TCH PROBE 3.4 ERRORMODE0");
       block(fmt::format("FN 12: IF +Q34 LT +0 GOTO LBL {}", no_contact));
-      row(run.pass);
+      row(run);
     }
-    rapid_x(side * limits_.clear_x_mm());
+    rapid(way.axis, way.clear_mm);
     block("Q10 = Q10 + 1");
     block(fmt::format("FN 12: IF +Q10 LT +{} GOTO LBL {}", run.count, label));
   }
@@ -112,24 +114,25 @@ class Heidenhain final : public Dialect {
     block(fmt::format("DECLARE STRING QS1 = \"{}\"", words));
     append();
   }
-  void row(int pass) {
+  void row(const TouchRun& run) {
+    const bool x = run.approach.axis == 'X';
     block("DECLARE STRING QS2 = \"X \"");
-    block("QS3 = TOCHAR ( DAT+Q31 DECIMALS5 )");
+    block(fmt::format("QS3 = TOCHAR ( DAT+Q{} DECIMALS5 )", x ? 31 : 13));
     block("DECLARE STRING QS4 = \" C \"");
     block("QS5 = TOCHAR ( DAT+Q11 DECIMALS5 )");
     block("DECLARE STRING QS6 = \" Z \"");
-    block("QS7 = TOCHAR ( DAT+Q13 DECIMALS5 )");
-    block(fmt::format("DECLARE STRING QS8 = \" P {}\"", pass));
+    block(fmt::format("QS7 = TOCHAR ( DAT+Q{} DECIMALS5 )", x ? 13 : 33));
+    block(fmt::format("DECLARE STRING QS8 = \" P {}\"", run.pass));
     block("QS1 = QS2 || QS3 || QS4 || QS5 || QS6 || QS7 || QS8");
     append();
   }
 
   /// The way of the whole run over its steps: a step alone needs more digits than a control takes.
-  static std::string along(double first, double each, const TouchRun& run) {
+  static std::string each(double first, double more, const TouchRun& run) {
     const std::size_t steps = std::max<std::size_t>(run.count, 2) - 1;
-    const double whole = each * static_cast<double>(steps);
+    const double whole = more * static_cast<double>(steps);
     std::string text = (first < 0.0 ? "- " : "") + short_number(std::abs(first), 5);
-    if (each != 0.0)
+    if (more != 0.0)
       text += fmt::format(" {} {} * Q10 / {}", whole < 0.0 ? '-' : '+',
                           short_number(std::abs(whole), 5), steps);
     return text;

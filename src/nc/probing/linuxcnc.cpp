@@ -33,35 +33,28 @@ class LinuxCnc final : public Dialect {
   }
 
   void remark(const std::string& words) override { line(fmt::format("( {} )", words)); }
-  void rapid_x(double x_mm) override { line("G0 X" + mm(x_mm)); }
-  void rapid_z(double z_mm) override { line("G0 Z" + mm(z_mm)); }
+  void rapid(char axis, double to_mm) override { line(fmt::format("G0 {}{}", axis, mm(to_mm))); }
 
   void touch(const TouchRun& run) override {
     const int label = 100 + run.pass;
-    const std::string clear = mm(run.rear ? -limits_.clear_x_mm() : limits_.clear_x_mm());
     start_of_turn();
     line("#<k> = 0");
     line(fmt::format("o{} while [#<k> LT {}]", label, run.count));
-    line(fmt::format("  G0 Z{} C[#<turn> + {} + {} * #<k>]", along(run.z_mm, run.z_step_mm, mm),
-                     deg(run.c_deg), step(run.c_step_deg)));
-    const std::string stop = along(run.stop_mm, run.stop_step_mm, mm);
-    const std::string feed = " F" + short_number(60.0 * limits_.feed_mm_per_s, 3);
-    if (dry_run_) {
-      line("  G1 X" + stop + feed);
-    } else {
-      line("  G38.2 X" + stop + feed);
-      line(fmt::format("  (LOG,X #5061 C #5066 Z #5063 P {})", run.pass));
-    }
-    line("  G0 X" + clear);
+    line(fmt::format("  G0 {}{} C[#<turn> + {} + {} * #<k>]", run.approach.along(),
+                     each(run.along_mm, run.along_step_mm), deg(run.c_deg), step(run.c_step_deg)));
+    line(fmt::format("  {} {}{} F{}", dry_run_ ? "G1" : "G38.2", run.approach.axis,
+                     each(run.stop_mm, run.stop_step_mm), feed()));
+    if (!dry_run_) line(fmt::format("  (LOG,X #5061 C #5066 Z #5063 P {})", run.pass));
+    line(fmt::format("  G0 {}{}", run.approach.axis, mm(run.approach.clear_mm)));
     line("  #<k> = [#<k> + 1]");
     line(fmt::format("o{} endwhile", label));
   }
 
   void scan(const ScanRun& run) override {
+    const char axis = run.approach.axis, along = run.approach.along();
     start_of_turn();
-    line(fmt::format("G0 Z{} C#<turn>", mm(run.begin.z_mm)));
-    line(fmt::format("G1 X{} F{}", mm(run.begin.x_mm),
-                     short_number(60.0 * limits_.feed_mm_per_s, 3)));
+    line(fmt::format("G0 {}{} C#<turn>", along, mm(run.begin.along_mm)));
+    line(fmt::format("G1 {}{} F{}", axis, mm(run.begin.met_mm), feed()));
     if (run.rpm == 0.0) {
       line("M66 E0 L0");
       reading(run.pass, "M68");
@@ -74,8 +67,9 @@ class LinuxCnc final : public Dialect {
     reading(run.pass, "M67");
     line("G93");
     const double turns = (run.end.c_deg - run.begin.c_deg) / 360.0;
-    line(fmt::format("G1 X{} Z{} C[#<turn> + {}] F{}", mm(run.end.x_mm), mm(run.end.z_mm),
-                     deg(run.end.c_deg), short_number(run.rpm / std::abs(turns), 6)));
+    line(fmt::format("G1 {}{} {}{} C[#<turn> + {}] F{}", axis, mm(run.end.met_mm), along,
+                     mm(run.end.along_mm), deg(run.end.c_deg),
+                     short_number(run.rpm / std::abs(turns), 6)));
     reading(0, "M67");
     line("G94");
   }
@@ -97,10 +91,12 @@ class LinuxCnc final : public Dialect {
     if (!dry_run_) line(fmt::format("{} E0 Q{}", code, pass));
   }
 
+  std::string feed() const { return short_number(60.0 * limits_.feed_mm_per_s, 3); }
   static std::string step(double value) { return short_number(value, 9); }
-  static std::string along(double first, double each, std::string (*number)(double)) {
-    if (each == 0.0) return number(first);
-    return fmt::format("[{} + {} * #<k>]", number(first), step(each));
+  /// Of touch point k.
+  static std::string each(double first, double more) {
+    if (more == 0.0) return mm(first);
+    return fmt::format("[{} + {} * #<k>]", mm(first), step(more));
   }
 };
 

@@ -16,31 +16,35 @@ namespace {
 
 constexpr double seconds_beside = 1.5;  // of a touch: rapid moves and indexing, about
 
+/// Where a dry run turns back: half of the clearance away.
+double dry_mm(const Approach& way, const ProbingLimits& limits) {
+  return way.clear_mm + 0.5 * way.sense * limits.clearance_mm;
+}
+
 TouchRun touch_run(const ProbingPlan& plan, const ProbingPass& pass, int number,
                    const ProbingLimits& limits, bool dry_run) {
   TouchRun run;
-  run.pass = number, run.rear = pass.rear, run.count = pass.readings;
+  run.pass = number, run.approach = approach_of(plan, pass, limits), run.count = pass.readings;
+  const Approach& way = run.approach;
   const double steps = static_cast<double>(std::max<std::size_t>(pass.readings, 2) - 1);
   run.c_deg = pass.c_rad / rad_per_deg, run.c_step_deg = 360.0 * pass.turns / steps;
-  run.z_mm = pass.start_mm, run.z_step_mm = (pass.end_mm - pass.start_mm) / steps;
-  const double side = pass.rear ? -1.0 : 1.0;
-  run.stop_mm = dry_run
-                    ? side * (limits.clear_x_mm() - 0.5 * limits.clearance_mm)
-                    : side * (plan.radius_at(run.z_mm) + limits.ball_radius_mm - limits.search_mm);
-  run.stop_step_mm = dry_run ? 0.0 : side * plan.slope * run.z_step_mm;
+  run.along_mm = pass.start_mm, run.along_step_mm = (pass.end_mm - pass.start_mm) / steps;
+  run.stop_mm =
+      dry_run ? dry_mm(way, limits) : way.met_at(pass.start_mm) + way.sense * limits.search_mm;
+  run.stop_step_mm = dry_run ? 0.0 : way.slope * run.along_step_mm;
   return run;
 }
 
 ScanRun scan_run(const ProbingPlan& plan, const ProbingPass& pass, int number,
                  const ProbingLimits& limits, bool dry_run) {
   ScanRun run;
-  run.pass = number, run.rpm = std::abs(pass.rpm()), run.seconds = pass.seconds;
+  run.pass = number, run.approach = approach_of(plan, pass, limits);
+  run.rpm = std::abs(pass.rpm()), run.seconds = pass.seconds;
   const double before = run_in(pass, limits);
   const auto at = [&](double share) {
-    const double z = pass.start_mm + share * (pass.end_mm - pass.start_mm);
-    const double x = dry_run ? limits.clear_x_mm() - 0.5 * limits.clearance_mm
-                             : plan.radius_at(z) + limits.ball_radius_mm;
-    return ScanPoint{360.0 * pass.turns * (share + before), pass.rear ? -x : x, z};
+    const double along = pass.start_mm + share * (pass.end_mm - pass.start_mm);
+    return ScanPoint{360.0 * pass.turns * (share + before), along,
+                     dry_run ? dry_mm(run.approach, limits) : run.approach.met_at(along)};
   };
   run.begin = at(-before), run.end = at(1.0 + before);
   return run;
@@ -48,8 +52,10 @@ ScanRun scan_run(const ProbingPlan& plan, const ProbingPass& pass, int number,
 
 double seconds_of(const ProbingPass& pass, const ProbingPlan& plan, const ProbingLimits& limits) {
   if (limits.kind == ProbeKind::analogue) return pass.seconds;
-  const double way = limits.clear_x_mm() - plan.radius_at(pass.start_mm) - limits.ball_radius_mm;
-  return static_cast<double>(pass.readings) * (way / limits.feed_mm_per_s + seconds_beside);
+  const Approach way = approach_of(plan, pass, limits);
+  return static_cast<double>(pass.readings) *
+         (std::abs(way.clear_mm - way.met_at(pass.start_mm)) / limits.feed_mm_per_s +
+          seconds_beside);
 }
 
 std::string described(const ProbingPass& pass, int number, ProbeKind kind) {
@@ -133,23 +139,23 @@ ProbingProgram write_probing(const ProbingPlan& plan, const ProbingLimits& limit
   words->begin(remarks, log_head(plan, limits));
   const double clear_x = limits.clear_x_mm();
   bool rear = false;
-  words->rapid_x(clear_x);
+  words->rapid('X', clear_x);
   for (std::size_t k = 0; k < plan.passes.size(); ++k) {
     const ProbingPass& pass = plan.passes[k];
     const int number = static_cast<int>(k + 1);
     words->remark(described(pass, number, limits.kind));
     if (pass.rear != rear) {  // around the free end of the part
-      words->rapid_z(limits.clear_z_mm());
+      words->rapid('Z', limits.clear_z_mm());
       rear = pass.rear;
-      words->rapid_x(rear ? -clear_x : clear_x);
+      words->rapid('X', rear ? -clear_x : clear_x);
     }
     if (touch)
       words->touch(touch_run(plan, pass, number, limits, dry_run));
     else
       words->scan(scan_run(plan, pass, number, limits, dry_run));
-    words->rapid_x(rear ? -clear_x : clear_x);
+    words->rapid('X', rear ? -clear_x : clear_x);
   }
-  words->rapid_z(limits.clear_z_mm());
+  words->rapid('Z', limits.clear_z_mm());
   words->end();
   out.text = words->text();
   return out;

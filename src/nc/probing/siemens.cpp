@@ -32,8 +32,9 @@ class Siemens final : public Dialect {
   }
 
   void remark(const std::string& words) override { line("; " + words); }
-  void rapid_x(double x_mm) override { line("G0 X" + number(x_mm)); }
-  void rapid_z(double z_mm) override { line("G0 Z" + number(z_mm)); }
+  void rapid(char axis, double to_mm) override {
+    line(fmt::format("G0 {}{}", axis, number(to_mm)));
+  }
 
   void touch(const TouchRun& run) override {
     line(fmt::format("FOR K=0 TO {}", run.count - 1));
@@ -42,10 +43,10 @@ class Siemens final : public Dialect {
     line("IF CW < 0");
     line("CW=CW+360");
     line("ENDIF");
-    line("ZP=" + along(run.z_mm, run.z_step_mm));
+    line("ZP=" + along(run.along_mm, run.along_step_mm));
     line("XS=" + along(run.stop_mm, run.stop_step_mm));
-    line("G0 Z=ZP C=DC(CW)");
-    line(fmt::format("{}G1 X=XS F{}", dry_run_ ? "" : "MEAS=1 ",
+    line(fmt::format("G0 {}=ZP C=DC(CW)", run.approach.along()));
+    line(fmt::format("{}G1 {}=XS F{}", dry_run_ ? "" : "MEAS=1 ", run.approach.axis,
                      number(60.0 * limits_.feed_mm_per_s)));
     if (!dry_run_) {
       line("STOPRE");
@@ -54,9 +55,13 @@ class Siemens final : public Dialect {
       line("SETAL(65001)");
       line("M30");
       line("ENDIF");
-      write(fmt::format("\"X \"<<$AA_MW[X]<<\" C \"<<CR<<\" Z \"<<ZP<<\" P {}\"", run.pass));
+      const auto value = [&](char axis) {
+        return run.approach.axis == axis ? "$AA_MW[" + std::string(1, axis) + "]" : "ZP";
+      };
+      write(fmt::format("\"X \"<<{}<<\" C \"<<CR<<\" Z \"<<{}<<\" P {}\"", value('X'), value('Z'),
+                        run.pass));
     }
-    rapid_x(run.rear ? -limits_.clear_x_mm() : limits_.clear_x_mm());
+    rapid(run.approach.axis, run.approach.clear_mm);
     line("ENDFOR");
   }
 

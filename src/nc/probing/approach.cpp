@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nc/probing/approach.hpp"
+
+namespace trueaxis::nc {
+
+Approach approach_of(const ProbingPlan& plan, const ProbingPass& pass,
+                     const ProbingLimits& limits) {
+  const double side = pass.rear ? -1.0 : 1.0;
+  Approach out;
+  out.sense = -side, out.clear_mm = side * limits.clear_x_mm();
+  out.met_mm = side * plan.radius_mm - out.sense * limits.ball_radius_mm;
+  out.slope = side * plan.slope;
+  return out;
+}
+
+}  // namespace trueaxis::nc
