@@ -81,7 +81,7 @@ struct Gain : Explained {
 
 /// A run of the probe, C and Z linear in time.
 struct ProbingRun {
-  double from_mm = 0.0, to_mm = 0.0;  ///< Z
+  double from_mm = 0.0, to_mm = 0.0;  ///< Z; of a face X
   double turns = 0.0;                 ///< signed like C; 0: at standstill
   double seconds = 0.0;
   double readings = 0.0;

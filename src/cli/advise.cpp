@@ -150,14 +150,6 @@ int advise_job(const CLI::App& command, AdviseArguments& options) {
   return worst;
 }
 
-/// `--control` of a stream, with `--limits` and `--output`.
-void take_control(AdviseArguments& options, Outputs& outputs) {
-  options.program.read(options.results, outputs);
-  const FitOptions fit = options.association.chosen();
-  const std::string why = nc::objection_to_part(fit.bore, fit.surface == SurfaceKind::plane);
-  if (options.program.asked() && !why.empty()) throw InputError(options.stream.path, why);
-}
-
 /// Writes the next measurement as a program; what the screen says of it.
 std::string write_program(const AdviseArguments& options, const Diagnosis& diagnosis,
                           Outputs& outputs) {
@@ -227,7 +219,7 @@ void add_advise(CLI::App* command, int& exit_code) {
     options->results.say("--output", "trueaxis.probing_program");
     Outputs outputs(options->results.force);
     outputs.reads(options->stream.path);
-    take_control(*options, outputs);
+    options->program.read(options->results, outputs);
     options->results.name_to(outputs);
     outputs.check();
     const ProbeStream stream = options->stream.read();
@@ -238,8 +230,8 @@ void add_advise(CLI::App* command, int& exit_code) {
                                        " readings and propose the next measurement");
       return;
     }
-    const Diagnosis diagnosis = advise(stream, options->association.chosen(), options->false_alarm,
-                                       options->results.printed());
+    const Diagnosis diagnosis = advise(stream, options->association.chosen(stream),
+                                       options->false_alarm, options->results.printed());
     options->results.write(outputs, "--json", [&] { return diagnosis_json(diagnosis); });
     const std::string program = write_program(*options, diagnosis, outputs);
     outputs.commit();

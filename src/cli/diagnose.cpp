@@ -48,7 +48,7 @@ int execute(const DiagnoseArguments& options) {
                                 " and diagnose it");
   std::optional<Waiting> waiting("diagnosis of " + stream.source);
   DiagnoseOptions diagnose_options;
-  diagnose_options.fit = options.association.chosen();
+  diagnose_options.fit = options.association.chosen(stream);
   diagnose_options.false_alarm = options.false_alarm;
   const CheckedDiagnosis found = checked_diagnosis(std::move(stream), diagnose_options);
   const Diagnosis& diagnosis = found.diagnosis;

@@ -58,7 +58,7 @@ int execute(const FitArguments& options) {
     return checked(outputs, "fit a " + options.association.surface + " to " +
                                 counted(stream.size(), "reading") + " of " + stream.source);
   std::optional<Waiting> waiting("fit of " + stream.source);
-  const FitOptions chosen = options.association.chosen();
+  const FitOptions chosen = options.association.chosen(stream);
   const FitResult result = checked_fit(stream, chosen);
   waiting.reset();
   expect_enough_readings(result);

@@ -60,11 +60,12 @@ int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions&
   outputs.check();
   const ProbeStream readings = stream.read();
   expect_one_surface(readings, surface_from_id(association.surface), RangesAs::options);
-  const StreamAssociation found = associate_stream(
-      readings, surface_from_id(association.surface), criterion_of(name),
-      {.bore = association.fit.bore, .ball_radius_mm = association.fit.ball_radius_mm});
+  const FitOptions chosen = association.chosen(readings);
+  const StreamAssociation found =
+      associate_stream(readings, surface_from_id(association.surface), criterion_of(name),
+                       {.bore = chosen.bore, .ball_radius_mm = chosen.ball_radius_mm});
   // What the readings cannot be, they are by no criterion.
-  const FitResult along_probe = checked_fit(readings, association.chosen());
+  const FitResult along_probe = checked_fit(readings, chosen);
   if (along_probe.status != FitStatus::converged) return exit_code_of(along_probe, readings.source);
   for (const auto& [name, estimate] : along_probe.parameters)
     if (!along_probe.axis_known() && !estimate.why_not.empty())

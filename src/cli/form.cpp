@@ -77,10 +77,11 @@ FormResult of_points(const FormArguments& options, const FormOptions& form) {
   return result;
 }
 
-FormResult assessed(const FormArguments& options, const FormOptions& form) {
+FormResult assessed(const FormArguments& options, FormOptions form) {
   if (!options.element.empty()) return of_points(options, form);
   const ProbeStream stream = options.stream.read();
   expect_one_surface(stream, SurfaceKind::cylinder, RangesAs::options);
+  form.bore = form.bore || states_bore(stream);
   if (options.datum.empty()) return assess_form(stream, form);
   const ProbeStream datum = read_recording(options.datum, options.stream.recording());
   expect_one_surface(datum, SurfaceKind::cylinder, RangesAs::options);

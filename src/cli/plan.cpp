@@ -29,12 +29,13 @@ struct Simple {
   std::string surface = "cone";
   double radius_mm = 40.0, half_angle_deg = 5.710593, length_mm = 60.0, feed_mm = 1.0;
   double per_revolution = 20.3, speed_rpm = 60.0, sigma_um = 2.0;
+  bool bore = false;
 
   lathe::Scenario scenario() const {
     lathe::Scenario out;
     const bool cone = surface == "cone";
     out.part.kind = cone ? lathe::PartKind::cone : lathe::PartKind::cylinder;
-    out.part.radius_mm = radius_mm;
+    out.part.radius_mm = radius_mm, out.part.bore = bore;
     if (cone) out.part.half_angle_rad = half_angle_deg * rad_per_deg;
     out.noise.sigma_mm = sigma_um * mm_per_um;
     lathe::PlannedPass pass;
@@ -163,6 +164,9 @@ void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {
       ->capture_default_str()
       ->excludes(scenario)
       ->group("Without a scenario");
+  command.add_flag("--bore", simple.bore, "the part is probed from inside")
+      ->excludes(scenario)
+      ->group("Without a scenario");
   add("--radius-mm", simple.radius_mm, "radius where the pass starts, mm");
   add("--half-angle-deg", simple.half_angle_deg, "half angle of the cone, deg");
   add("--length-mm", simple.length_mm, "length of the pass, mm");
@@ -178,7 +182,7 @@ void add_plan(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<PlanArguments>();
   auto* scenario = command->add_option("scenario", options->scenario, "part and plan (TOML)");
   add_option(*command, "--goal-um", options->goal_um, more_than_0(),
-             "largest U of the axis over the length, µm")
+             "largest U of the axis over the length, or of a face's height, µm")
       ->capture_default_str();
   add_option(*command, "--coverage-factor", options->task.coverage_factor, more_than_0(),
              "k of U = k u")

@@ -68,6 +68,7 @@ int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {
   std::vector<ProbeStream> streams;
   const auto read = [&] {
     streams = read_streams(file);
+    if (of_stream && states_bore(streams.front())) job.references.front().fit.bore = true;
     if (!surface_known) return take_seats(job, streams);
     for (std::size_t i = 0; i < streams.size(); ++i)
       expect_one_surface(streams[i], job.references[i].fit.surface,

@@ -9,6 +9,7 @@
 #include "cli/typed_command.hpp"
 #include "job/files/influences_toml.hpp"
 #include "job/files/job_file.hpp"
+#include "measure/feature.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -141,6 +142,12 @@ struct AssociationOptions {
     options.loss = loss == "huber" ? Loss::huber : loss == "tukey" ? Loss::tukey : Loss::plain;
     options.influences = influences_of(known);
     if (noise_um >= 0.0) options.noise_mm = noise_um * mm_per_um;
+    return options;
+  }
+  /// With what the stream states of its feature.
+  FitOptions chosen(const ProbeStream& stream) const {
+    FitOptions options = chosen();
+    options.bore = options.bore || states_bore(stream);
     return options;
   }
 };

@@ -80,7 +80,7 @@ class Source {
 
 /// The surface of the options, or the one that the readings show so far.
 FitOptions fit_of(const WatchArguments& options, const ProbeStream& sample) {
-  const FitOptions chosen = options.run.association.chosen();
+  const FitOptions chosen = options.run.association.chosen(sample);
   if (options.run.surface->count() > 0) return chosen;
   Job job = job_of_stream(options.run.stream.file(), chosen).job;
   std::vector<ProbeStream> streams{sample};

@@ -12,6 +12,7 @@
 #include "fit/describe.hpp"
 #include "fit/plausible.hpp"
 #include "fit/uncertainty.hpp"
+#include "measure/feature.hpp"
 #include "surface/own_surface.hpp"
 #include "trueaxis/error.hpp"
 
@@ -99,6 +100,7 @@ void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
   if (!stream.sensor_angles_rad.empty())
     throw InputError(stream.source, "several sensors of one recording: use separate_spindle");
   expect_kind(stream, surface_entry(options).info);
+  expect_feature(stream, options.bore);
   const bool ball = stream.ball_radius_mm.value_or(0.0) > 0.0 || options.ball_radius_mm > 0.0;
   if (!options.profile && !is_diagnosed(options.surface)) {
     if (stream.indication == Indication::relative)

@@ -13,6 +13,7 @@
 #include "form/swallowed.hpp"
 #include "form/uncertainty.hpp"
 #include "form/whole_model.hpp"
+#include "measure/feature.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/form.hpp"
 
@@ -269,6 +270,7 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   result.source = stream.source;
   result.input_hash = stream.input_hash;
   expect_options(options);
+  expect_feature(stream, options.bore);
   if (!(options.ball_radius_mm > 0.0)) options.ball_radius_mm = stream.ball_radius_mm.value_or(0.0);
   if (!options.noise_mm) options.noise_mm = stream.sensor_noise_mm;
   if (stream.kind == StreamKind::face) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "measure/feature.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis {
@@ -30,6 +31,7 @@ SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
   if (!(length_mm(stream) > 0.0)) return {SurfaceKind::section, {ReasonCode::no_change_of_z}};
   FitOptions options;
   options.surface = SurfaceKind::cone;
+  options.bore = states_bore(stream);
   const FitResult cone = fit(stream, options);
   if (cone.status == FitStatus::implausible) return {SurfaceKind::cone, {ReasonCode::cone_at_last}};
   if (cone.status != FitStatus::converged)

@@ -35,6 +35,7 @@ struct LoggedPass {
 /// What the program says of its rows before they come.
 struct Head {
   bool samples = false, started = false, ended = false, diameter = false;
+  bool face = false;  ///< read along Z
   std::size_t period_ns = 0;
   std::map<std::size_t, LoggedPass> passes;
 };
@@ -87,6 +88,11 @@ class LogReader {
             fmt::format("# ball_radius: {} mm", 1e-6 * static_cast<double>(*ball)));
       return ball.has_value();
     }
+    if (tokens == Tokens{"FEATURE", "BORE"}) {
+      out_.metadata.emplace_back("# feature: bore");
+      return true;
+    }
+    if (tokens == Tokens{"READS", "Z"}) return head_.face = true;
     if (tokens.size() == 3 && key == "PERIOD" && tokens[1] == "NS") {
       const auto period = whole_number<std::size_t>(tokens[2]);
       head_.period_ns = period.value_or(0);
@@ -193,8 +199,8 @@ class LogReader {
     const auto column = [&](const char* name, const char* unit) {
       out_.columns.push_back({name, unit, name, true});
     };
-    column("X", "mm"), column("C", "deg"), column("Z", "mm"), column("pass", ""),
-        column("setup", "");
+    column("X", "mm"), column("C", "deg"), column(head_.face ? "Z_M" : "Z", "mm"),
+        column("pass", ""), column("setup", "");
     if (head_.samples) column("t", "s");
     out_.producer = "the log of a probing program of TrueAxis";
   }

@@ -31,17 +31,20 @@ const Case cases[] = {{"fanuc", "gcode_system = \"A\"\nx = \"diameter\"\n", true
 class ProbingControls : public CommandTest {
  protected:
   std::string plan_ = both_sides;
+  std::string part_limits_ = "[part]\nreach_mm = 34\nfront_mm = 5\n";
+  std::string stylus_;
+  PartGap part_;  ///< none: the shaft
   double slope_ = 0.0;
 
   /// A control that holds the program of a case.
   PlainProbingControl ran(const Case& one, const std::string& options = "", double part_mm = 30.0,
                           double from_x = 100.0, double from_z = 60.0, double from_y = 0.0) {
     file("plan.toml", plan_);
-    file("limits.toml",
-         "[limits]\nx_mm = [-80, 120]\nz_mm = [-60, 80]\nspeed_rpm = 400\n[part]\nreach_mm = 34\n"
-         "front_mm = 5\n[probe]\nkind = \"touch\"\nball_radius_mm = 1\nfeed_mm_per_min = 150\n"
-         "clearance_mm = 3\nsearch_mm = 1.5\n[control]\n" +
-             one.options);
+    file("limits.toml", "[limits]\nx_mm = [-80, 120]\nz_mm = [-60, 80]\nspeed_rpm = 400\n" +
+                            part_limits_ +
+                            "[probe]\nkind = \"touch\"\nball_radius_mm = 1\nfeed_mm_per_min = 150\n"
+                            "clearance_mm = 3\nsearch_mm = 1.5\n" +
+                            stylus_ + "[control]\n" + one.options);
     const CommandStreams done = command(
         "study plan plan.toml --goal-um 5 --repeats 100 --limits limits.toml -o p.nc "
         "--force --control " +
@@ -50,7 +53,7 @@ class ProbingControls : public CommandTest {
     PlainKlartextControl control;
     control.siemens = one.control == "siemens", control.x_diameter = one.diameter;
     control.part_mm = part_mm, control.x = from_x, control.z = from_z, control.y = from_y;
-    control.slope = slope_;
+    control.slope = slope_, control.part = part_;
     control.mask = read_text(places::source() + "/data/probing/heidenhain_mask.txt");
     if (one.control == "heidenhain")
       control.run(read_text(folder_ / "p.nc"));
@@ -152,6 +155,116 @@ TEST_F(ProbingControls, StopWithAnAlarm) {
     EXPECT_NE(near.alarm, "");
     EXPECT_TRUE(near.moves.empty());
     EXPECT_EQ(ran(one, "", 30.0, 0.0, 60.0).alarm, "");
+  }
+}
+
+/// What a log tells a fit, of a parameter.
+class ProbingOtherSurfaces : public ProbingControls {
+ protected:
+  void take_bore() {
+    plan_ =
+        "[part]\nsurface = \"cylinder\"\nfeature = \"bore\"\nradius_mm = 30\n[noise]\n"
+        "sigma_um = 1\n[[pass]]\nz_start_mm = -10\nz_end_mm = -40\nfeed_mm_per_rev = 10\n"
+        "readings_per_revolution = 12\n[[pass]]\nz_start_mm = -40\nz_end_mm = -10\n"
+        "feed_mm_per_rev = 10\nreadings_per_revolution = 12\nspeed_rpm = -60\nsetup = 2\n"
+        "[[setup]]\nnumber = 2\nside = \"rear\"\n";
+    part_limits_ =
+        "[part]\nreach_mm = 41\nfront_mm = 0.5\nbore_radius_mm = 29.7\nbore_bottom_mm = -60\n";
+    stylus_ = "stylus_radius_mm = 0.6\nstylus_length_mm = 50\n";
+    part_ = BlockWithBore{};
+  }
+  void take_face() {
+    plan_ =
+        "[part]\nsurface = \"face\"\nd_mm = 0\n[noise]\nsigma_um = 1\n[[pass]]\n"
+        "x_start_mm = 12\nx_end_mm = 36\nfeed_mm_per_rev = 12\nreadings_per_revolution = 12\n"
+        "[[pass]]\nx_start_mm = 36\nx_end_mm = -24\nfeed_mm_per_rev = 30\n"
+        "readings_per_revolution = 12\n";
+    part_limits_ = "[part]\nreach_mm = 41\nfront_mm = 0.5\n";
+    stylus_ = "stylus_length_mm = 50\n";
+    part_ = TiltedFace{};
+  }
+  double fitted(const PlainProbingControl& control, const std::string& options,
+                const std::string& parameter) {
+    file("p.log", control.log);
+    EXPECT_EQ(command("import p.log -o s.csv --force").exit_code, 0) << control.log;
+    const CommandStreams fit = command("fit s.csv --json fit.json --force --surface " + options);
+    EXPECT_EQ(fit.exit_code, 0) << fit.err;
+    return result("fit.json")["parameters"][parameter]["value"].get<double>();
+  }
+};
+
+// A log has four digits and more, of a diameter too.
+TEST_F(ProbingOtherSurfaces, TouchABoreFromInside) {
+  take_bore();
+  const BlockWithBore bore;
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl control = ran(one);
+    EXPECT_EQ(control.alarm, "");
+    EXPECT_EQ(std::ranges::count(control.moves, true, &PlainProbingControl::Move::probing), 74);
+    const std::string options = "cylinder";
+    EXPECT_NEAR(fitted(control, options, "radius"), bore.radius_mm, 5e-5);
+    EXPECT_NEAR(fitted(control, options, "x0"), bore.x0_mm, 5e-5);
+    EXPECT_NEAR(fitted(control, options, "y0"), bore.y0_mm, 5e-5);
+  }
+}
+
+// One that is 2 mm larger than planned is not met.
+TEST_F(ProbingOtherSurfaces, StopInABoreWithoutAWall) {
+  take_bore();
+  BlockWithBore bore;
+  bore.radius_mm = 32.0;
+  part_ = bore;
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl missed = ran(one);
+    EXPECT_NE(missed.alarm, "");
+    EXPECT_NE(missed.alarm, "collision");
+    EXPECT_NEAR(missed.moves.back().x, 30.0 - 1.0 + 1.5, 1e-4);
+  }
+}
+
+TEST_F(ProbingOtherSurfaces, TouchAFaceAlongZ) {
+  take_face();
+  const TiltedFace face;
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl control = ran(one);
+    EXPECT_EQ(control.alarm, "");
+    EXPECT_EQ(std::ranges::count(control.moves, true, &PlainProbingControl::Move::probing), 50);
+    EXPECT_NEAR(fitted(control, "plane", "d"), face.level_mm, 5e-5);
+    EXPECT_NEAR(fitted(control, "plane", "l"), -face.slope_x, 5e-5 / 15.0);
+    EXPECT_NEAR(fitted(control, "plane", "m"), -face.slope_y, 5e-5 / 15.0);
+  }
+}
+
+// One that is 2 mm farther away is not met.
+TEST_F(ProbingOtherSurfaces, StopInFrontOfNoFace) {
+  take_face();
+  TiltedFace face;
+  face.level_mm = -2.0;
+  part_ = face;
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl missed = ran(one);
+    EXPECT_NE(missed.alarm, "");
+    EXPECT_NE(missed.alarm, "collision");
+    EXPECT_NEAR(missed.moves.back().z, 1.0 - 1.5, 1e-4);
+  }
+}
+
+TEST_F(ProbingOtherSurfaces, AnAirRunStaysOffTheWall) {
+  take_bore();
+  BlockWithBore bore;
+  bore.ball_mm = 2.3;  // of the 2.5 that half of the clearance leaves
+  bore.length_mm = 60.0;
+  part_ = bore;
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.control + one.options);
+    const PlainProbingControl control = ran(one, " --air-run");
+    EXPECT_EQ(control.alarm, "");
+    EXPECT_EQ(control.log, "");
+    EXPECT_GT(control.moves.size(), 200u);
   }
 }
 

@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <regex>
-#include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/rs274_calls.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -37,17 +36,8 @@ const std::string two_speeds =
     "readings_per_revolution = 40.3\nspeed_rpm = -302\n"
     "[[pass]]\nz_mm = -20\nspeed_rpm = 0\nduration_s = 5\nrate_hz = 200\n";
 
-struct Call {
-  std::string name;
-  double x = 0.0, z = 0.0, c = 0.0;
-  double feed = 0.0;    ///< in force
-  std::string words{};  ///< of a LOG
-};
-
 class ProbingProgram : public CommandTest {
  protected:
-  bool has_interpreter() { return shell("command -v rs274").exit_code == 0; }
-
   CommandStreams plan(const std::string& scenario, const std::string& probe,
                       const std::string& options = "") {
     file("plan.toml", scenario);
@@ -59,32 +49,7 @@ class ProbingProgram : public CommandTest {
   }
 
   /// The calls of the interpreter, from a place clear of the part.
-  std::vector<Call> calls() {
-    file("from.ngc", "G21 G0 X100 Z60\n" + read_text(folder_ / "p.ngc"));
-    const auto done = shell("cd " + shell_word(folder_) + " && rs274 -g from.ngc");
-    EXPECT_EQ(done.exit_code, 0) << done.output;
-    const std::regex move(
-        R"(.*(STRAIGHT_[A-Z]+)\(([-\d.]+), [-\d.]+, ([-\d.]+), [-\d.]+, [-\d.]+, ([-\d.]+)\))");
-    const std::regex rate(R"(.*SET_FEED_RATE\(([\d.]+)\))"), log(R"x(.* LOG\("(.*)"\))x");
-    std::vector<Call> out;
-    std::istringstream lines(done.output);
-    std::smatch found;
-    double feed = 0.0;
-    for (std::string line; std::getline(lines, line);) {
-      if (std::regex_match(line, found, rate)) feed = std::stod(found[1]);
-      if (std::regex_match(line, found, move))
-        out.push_back(
-            {found[1], std::stod(found[2]), std::stod(found[3]), std::stod(found[4]), feed});
-      else if (std::regex_match(line, found, log))
-        out.push_back({"LOG", 0.0, 0.0, 0.0, feed, found[1]});
-    }
-    return out;
-  }
-
-  static std::size_t count(const std::vector<Call>& all, const std::string& name) {
-    return static_cast<std::size_t>(
-        std::ranges::count(all, name, [](const Call& one) { return one.name; }));
-  }
+  std::vector<Call> calls() { return interpreted(folder_, "p.ngc"); }
 
   /// Rapid moves keep their clearance, also on the way from the front to the rear side.
   static void expect_clear(const std::vector<Call>& all) {
@@ -244,9 +209,11 @@ TEST_F(ProbingProgram, AProbeThatCannotReadTheBestPlanDrivesTheNextBest) {
   EXPECT_EQ(job.exit_code, 2);
   EXPECT_TRUE(contains(job.err, "--control: is for a stream")) << job.err;
   EXPECT_FALSE(there("p.ngc"));
-  expect_input_error(
-      "advise part.csv --surface cylinder --bore --control linuxcnc --limits limits.toml -o p.ngc",
-      "outside of a shaft, not for a bore");
+  const CommandStreams bore = command(
+      "advise part.csv --surface cylinder --bore --control linuxcnc --limits limits.toml -o p.ngc");
+  EXPECT_EQ(bore.exit_code, 3);
+  EXPECT_TRUE(contains(bore.err, "a bore needs bore_radius_mm in [part]")) << bore.err;
+  EXPECT_FALSE(there("p.ngc"));
 }
 
 TEST_F(ProbingProgram, AnAirRunTouchesNothing) {

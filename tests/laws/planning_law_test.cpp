@@ -268,6 +268,30 @@ TEST(PlanningLaw, CorrelatedNoiseIsNotThinned) {
   EXPECT_EQ(planning_detail::stand_in(task.base).readings_each, 1.0);
 }
 
+// The height d − l x − m y at the rim, by N readings at radii X over turns: d has a variance of
+// σ²/N, and l and m each 2σ²/(N mean X²). The rest is the correlation of cos C and X within the
+// turns that differ in X: less than 1/(2π turns) of it, 1 % of 16.
+TEST(PlanningLaw, AFaceIsPlannedForItsHeightAtTheRim) {
+  PlanningTask task = cylinder_task();
+  task.base.part.kind = virtual_lathe::PartKind::face;
+  virtual_lathe::PlannedPass& pass = task.base.plan.passes[0];
+  pass.start_mm = 20.0, pass.end_mm = 36.0, pass.feed_mm_per_rev = 1.0;
+  task.variables = {{Choice::readings_per_revolution, 4.0, 500.0}};
+  const PlannedMeasurement as_given = planned(task.base, 2.0);
+  const double square = (20.0 * 20.0 + 20.0 * 36.0 + 36.0 * 36.0) / 3.0;
+  const double expected =
+      2.0 * 3e-3 *
+      std::sqrt((1.0 + 2.0 * 36.0 * 36.0 / square) / static_cast<double>(as_given.readings));
+  EXPECT_NEAR(as_given.u_expanded_mm, expected, 0.01 * expected);
+  task.goal_mm = 0.5 * expected;
+  const PlanningAnswer answer = plan_measurement(task);
+  ASSERT_FALSE(answer.recommended.empty());
+  const Recommendation& one = answer.recommended.front();
+  EXPECT_NEAR(one.plan.of(Choice::readings_per_revolution), 4.0 * 12.3, 0.05 * 4.0 * 12.3);
+  EXPECT_TRUE(one.confirmed.at_bound);
+  EXPECT_EQ(one.confirmed.failures, 0U);
+}
+
 // At two readings per revolution sin C is 0 at every one: one direction is never looked at.
 TEST(PlanningLaw, HalfTurnsDetermineNoAxis) {
   PlanningTask task = cylinder_task();

@@ -152,10 +152,13 @@ class PlainKlartextControl : public PlainProbingControl {
   }
 
   /// Cycle 3: from where the probe is, at most ABST; then back by MB, at most to where it was.
-  void probe(const std::string& line) {
+  void probe(std::string line) {
     if (line == "0 MEASURING") return;
-    if (line == "1 Q31" || line == "2 X ANGLE: +180" || line == "2 X ANGLE: +0") {
-      if (line[0] == '2') towards_ = line == "2 X ANGLE: +0" ? 1.0 : -1.0;
+    if (line == "1 Q31") return;
+    if (take(line, "2 ")) {
+      axis_ = line[0];
+      if (line.substr(1) != " ANGLE: +180" && line.substr(1) != " ANGLE: +0") unknown(line);
+      towards_ = line.substr(1) == " ANGLE: +0" ? 1.0 : -1.0;
       return;
     }
     std::istringstream words(line);
@@ -168,14 +171,16 @@ class PlainKlartextControl : public PlainProbingControl {
       way_ = number(way), back_ = number(mb), cycle_feed_ = number(f);
       return;
     }
-    const double from = x;
-    to(false, true, {{'X', from + towards_ * way_}, {'F', cycle_feed_}});
+    double& at = axis_ == 'X' ? x : z;
+    const double from = at;
+    to(false, true, {{axis_, from + towards_ * way_}, {'F', cycle_feed_}});
     variables_["Q31"] = x, variables_["Q32"] = y, variables_["Q33"] = z;
     variables_["Q34"] = touched_ ? 1.0 : -1.0;
-    x -= towards_ * std::min(back_, std::abs(x - from));
+    at -= towards_ * std::min(back_, std::abs(at - from));
   }
 
   std::map<std::string, std::string> texts_;
+  char axis_ = 'X';
   double towards_ = 0.0, way_ = 0.0, back_ = 0.0, cycle_feed_ = 0.0;
 };
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "support/probed_part.hpp"
+
 /// A lathe X Z C with a touch probe and the least of a control: it runs the probing programs of
 /// FANUC and SINUMERIK. Everything that it does not know is an error of the program.
 namespace trueaxis::testing {
@@ -23,6 +25,7 @@ class PlainProbingControl {
   double x = 100.0, z = 60.0, c = 0.0, feed = 0.0;
   double part_mm = 30.0, off_mm = 0.1, ball_mm = 1.0;
   double slope = 0.0;  ///< of the part's radius over Z
+  PartGap part;        ///< another one than the shaft of the numbers above
   std::vector<Move> moves;
   std::string log, alarm;
 
@@ -113,7 +116,8 @@ class PlainProbingControl {
     const double scale = x_diameter ? 2.0 : 1.0;
     if (name == "#5041") return scale * x;
     if (name == "#5042") return z;
-    if (name == "#5061" || name == "$AA_MW[X]") return scale * measured_;
+    if (name == "#5061" || name == "$AA_MW[X]") return scale * measured_.x;
+    if (name == "#5062" || name == "$AA_MW[Z]") return measured_.z;
     if (name == "$AA_IW[X]") return x;
     if (name == "$AA_IW[Z]") return z;
     if (name == "$AC_MEA[1]") return touched_ ? 1.0 : 0.0;
@@ -124,15 +128,21 @@ class PlainProbingControl {
 
   void to(bool rapid, bool probing, std::map<char, double> words) {
     if (words.contains('F')) feed = words['F'];
-    if (words.contains('Z')) z = words['Z'];
     if (words.contains('C')) c = words['C'];
+    const BallAt from{x, z, c};
+    if (words.contains('Z')) z = words['Z'];
     if (words.contains('X')) {
       const double end = words['X'] / (x_diameter ? 2.0 : 1.0);
       const double met = x > 0.0 ? contact(c) + slope * z : -(contact(c + 180.0) + slope * z);
-      touched_ = std::abs(end) < std::abs(met) && x * end > 0.0 && z < 5.0;
-      if (touched_ && !probing) alarm = "collision";
-      measured_ = x = touched_ ? met : end;
+      touched_ = !part && std::abs(end) < std::abs(met) && x * end > 0.0 && z < 5.0;
+      x = touched_ ? met : end;
     }
+    if (part) {
+      const Met met = first_met(part, from, {x, z, c});
+      x = met.at.x, z = met.at.z, touched_ = met.part;
+    }
+    if (touched_ && !probing) alarm = "collision";
+    measured_ = {x, z, c};
     moves.push_back({rapid, probing, x, z, c, feed});
   }
 
@@ -263,7 +273,8 @@ class PlainProbingControl {
   std::vector<std::string> lines_;
   std::size_t at_ = 0, loop_ = 0, place_ = 0;
   bool ended_ = false, touched_ = false;
-  double measured_ = 0.0, last_ = 0.0;
+  BallAt measured_;
+  double last_ = 0.0;
   std::string text_;
   std::map<std::string, double> variables_;
 };

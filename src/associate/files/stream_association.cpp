@@ -5,12 +5,14 @@
 
 #include "format/json.hpp"
 #include "format/text_layout.hpp"
+#include "measure/feature.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 
 StreamAssociation associate_stream(const ProbeStream& stream, SurfaceKind surface,
                                    Criterion criterion, const StreamPointOptions& options) {
+  expect_feature(stream, options.bore);
   StreamAssociation out{.surface = surface};
   out.stream = points_of_stream(stream, surface, options);
   out.of_centres = associate(out.stream.points_mm, element_of(surface), criterion);

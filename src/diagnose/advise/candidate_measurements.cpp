@@ -121,7 +121,7 @@ bool same_place(const Clamping& a, const Clamping& b) {
 std::vector<ProbingRun> runs_measured(const LinearisationPoint& point,
                                       const std::vector<Clamping>& clampings, const Manner& m) {
   std::vector<ProbingRun> runs;
-  if (point.base.face || !point.has_position) return runs;
+  if (!point.has_position) return runs;
   for (const Pass& pass : point.passes) {
     const auto found = std::ranges::find(clampings, pass.setup, &Clamping::number);
     const Clamping& clamping = found == clampings.end() ? clampings.back() : *found;

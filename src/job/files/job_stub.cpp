@@ -8,6 +8,7 @@
 #include "format/reason_words.hpp"
 #include "job/files/starter.hpp"
 #include "job/files/stream_job.hpp"
+#include "measure/feature.hpp"
 #include "measure/seats.hpp"
 
 namespace trueaxis {
@@ -26,7 +27,9 @@ std::string reference_text(const std::string& file, const std::string& name,
       name.empty() ? surface : name, file, surface, words_of(evidence.why));
   if (seat)
     text += fmt::format("z_from_mm = {:.10g}\nz_to_mm = {:.10g}\n", seat->z.from_mm, seat->z.to_mm);
-  if (stream.kind == StreamKind::lateral) text += "feature = \"shaft\"        # or \"bore\"\n";
+  if (stream.kind == StreamKind::lateral)
+    text += states_bore(stream) ? "feature = \"bore\"         # as the stream states\n"
+                                : "feature = \"shaft\"        # or \"bore\"\n";
   return text + "# loss = \"tukey\"         # if chips or coolant left spikes\n";
 }
 

@@ -18,6 +18,7 @@ using Words = std::span<const std::string_view>;
 constexpr std::string_view conventions[] = {"radius", "diameter", "dia", "radial"};
 constexpr std::string_view indications[] = {"absolute", "relative"};
 constexpr std::string_view sides[] = {"front", "rear"};
+constexpr std::string_view features[] = {"shaft", "bore"};
 
 /// How much must be there before a text counts as a key.
 enum class Looks {
@@ -41,6 +42,7 @@ constexpr Known known_keys[] = {
     {"spindlerpm", "spindle_rpm", "60"},
     {"ballradius", "ball_radius", "1.5 mm"},
     {"sensorangles", "sensor_angles", "0, 99, 202 deg"},
+    {"feature", "feature", "bore", features, Looks::like_a_word},
     {"setupreindex", "setup.2.reindex", "70 deg"},
     {"setupzshift", "setup.2.z_shift", "12 mm"},
     {"setupxjog", "setup.2.x_jog", "0.1 mm"},

@@ -64,9 +64,9 @@ std::string unit_trouble(std::string_view value) {
 }
 
 bool is_known(std::string_view key) {
-  constexpr std::string_view keys[] = {"x_convention", "reading",     "nominal_radius",
-                                       "sensor_noise", "spindle_rpm", "ball_radius",
-                                       "sensor_angles"};
+  constexpr std::string_view keys[] = {"x_convention",  "reading",     "nominal_radius",
+                                       "sensor_noise",  "spindle_rpm", "ball_radius",
+                                       "sensor_angles", "feature"};
   return csv_is_setup_key(key) || std::ranges::find(keys, key) != std::end(keys);
 }
 
@@ -213,6 +213,8 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
   } else if (key == "reading") {
     if (value != "absolute" && value != "relative") return refuse("absolute or relative");
     known.indication = value == "relative" ? Indication::relative : Indication::absolute;
+  } else if (key == "feature") {
+    if (value != "shaft" && value != "bore") return refuse("shaft or bore");
   } else if (key == "nominal_radius") {
     const auto radius_mm = quantity_in(value, UnitKind::length);
     if (!radius_mm || !(*radius_mm > 0.0)) return refuse("a length above zero, such as 14.5 mm");

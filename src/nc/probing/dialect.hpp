@@ -53,6 +53,7 @@ class Dialect {
                      const std::vector<std::string>& log) = 0;
   virtual void remark(const std::string& words) = 0;
   virtual void rapid(char axis, double mm) = 0;
+  virtual void feed(char axis, double mm) = 0;  ///< at the feed towards the part
   virtual void touch(const TouchRun& run) = 0;
   virtual void scan(const ScanRun&) {}
   virtual void end() = 0;
@@ -60,6 +61,7 @@ class Dialect {
 
  protected:
   void line(const std::string& words) { text_ += words + '\n'; }
+  double feed_per_minute() const { return 60.0 * limits_.feed_mm_per_s; }
   const ProbingLimits& limits_;
   std::string name_;
   bool dry_run_;

@@ -35,6 +35,9 @@ class Fanuc final : public Dialect {
   void rapid(char axis, double to_mm) override {
     line(fmt::format("G0 {}{}", axis, value(axis, to_mm)));
   }
+  void feed(char axis, double to_mm) override {
+    line(fmt::format("G1 {}{} F{}", axis, value(axis, to_mm), number(feed_per_minute())));
+  }
 
   void touch(const TouchRun& run) override {
     line("#101=0");
@@ -47,8 +50,7 @@ class Fanuc final : public Dialect {
     line("#104=" + each(along, run.along_mm, run.along_step_mm));
     line("#105=" + each(axis, run.stop_mm, run.stop_step_mm));
     line(fmt::format("G0 {}#104 C#103", along));
-    line(fmt::format("{} {}#105 F{}", dry_run_ ? "G1" : "G31", axis,
-                     number(60.0 * limits_.feed_mm_per_s)));
+    line(fmt::format("{} {}#105 F{}", dry_run_ ? "G1" : "G31", axis, number(feed_per_minute())));
     if (!dry_run_) {
       line(fmt::format("IF[ABS[{}-#105]LT0.001]THEN #3000=2(NO CONTACT)", met));
       line(fmt::format("DPRNT[X{}[44]*C#102[64]*Z{}[44]*P{}]", axis == 'X' ? met : "#104",

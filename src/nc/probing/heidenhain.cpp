@@ -51,11 +51,13 @@ class Heidenhain final : public Dialect {
   void rapid(char axis, double to_mm) override {
     block(fmt::format("L {}{} R0 FMAX", axis, with_sign(to_mm)));
   }
+  void feed(char axis, double to_mm) override {
+    block(fmt::format("L {}{} R0 F{}", axis, with_sign(to_mm), speed()));
+  }
 
   void touch(const TouchRun& run) override {
     const int label = first_pass + run.pass;
     const Approach& way = run.approach;
-    const std::string feed = short_number(60.0 * limits_.feed_mm_per_s, 3);
     block("Q10 = 0");
     block(fmt::format("LBL {}", label));
     block("Q11 = " + each(run.c_deg, run.c_step_deg, run));
@@ -69,13 +71,13 @@ class Heidenhain final : public Dialect {
           each(way.sense * (run.stop_mm - way.clear_mm), way.sense * run.stop_step_mm, run));
     block(fmt::format("L {}+Q13 C+Q12 R0 FMAX", way.along()));
     if (dry_run_) {
-      block(fmt::format("L {}{} R0 F{}", way.axis, with_sign(run.stop_mm), feed));
+      block(fmt::format("L {}{} R0 F{}", way.axis, with_sign(run.stop_mm), speed()));
     } else {
       block("Q34 = - 1");
       block("TCH PROBE 3.0 MEASURING");
       block("TCH PROBE 3.1 Q31");
       block(fmt::format("TCH PROBE 3.2 {} ANGLE: {}", way.axis, way.sense > 0.0 ? "+0" : "+180"));
-      block(fmt::format("TCH PROBE 3.3 ABST +Q14 F{} MB{} REFERENCE SYSTEM: 0", feed,
+      block(fmt::format("TCH PROBE 3.3 ABST +Q14 F{} MB{} REFERENCE SYSTEM: 0", speed(),
                         short_number(limits_.clearance_mm, 4)));
       block("TCH PROBE 3.4 ERRORMODE0");
       block(fmt::format("FN 12: IF +Q34 LT +0 GOTO LBL {}", no_contact));
@@ -97,6 +99,7 @@ class Heidenhain final : public Dialect {
  private:
   enum : int { not_clear = 1, no_contact, in_front, clear, first_pass = 10 };
 
+  std::string speed() const { return short_number(feed_per_minute(), 3); }
   void block(const std::string& words) { line(fmt::format("{} {}", blocks_++, words)); }
 
   void stop(int label, const std::string& why, int error) {

@@ -34,6 +34,9 @@ class LinuxCnc final : public Dialect {
 
   void remark(const std::string& words) override { line(fmt::format("( {} )", words)); }
   void rapid(char axis, double to_mm) override { line(fmt::format("G0 {}{}", axis, mm(to_mm))); }
+  void feed(char axis, double to_mm) override {
+    line(fmt::format("G1 {}{} F{}", axis, mm(to_mm), speed()));
+  }
 
   void touch(const TouchRun& run) override {
     const int label = 100 + run.pass;
@@ -43,7 +46,7 @@ class LinuxCnc final : public Dialect {
     line(fmt::format("  G0 {}{} C[#<turn> + {} + {} * #<k>]", run.approach.along(),
                      each(run.along_mm, run.along_step_mm), deg(run.c_deg), step(run.c_step_deg)));
     line(fmt::format("  {} {}{} F{}", dry_run_ ? "G1" : "G38.2", run.approach.axis,
-                     each(run.stop_mm, run.stop_step_mm), feed()));
+                     each(run.stop_mm, run.stop_step_mm), speed()));
     if (!dry_run_) line(fmt::format("  (LOG,X #5061 C #5066 Z #5063 P {})", run.pass));
     line(fmt::format("  G0 {}{}", run.approach.axis, mm(run.approach.clear_mm)));
     line("  #<k> = [#<k> + 1]");
@@ -54,7 +57,7 @@ class LinuxCnc final : public Dialect {
     const char axis = run.approach.axis, along = run.approach.along();
     start_of_turn();
     line(fmt::format("G0 {}{} C#<turn>", along, mm(run.begin.along_mm)));
-    line(fmt::format("G1 {}{} F{}", axis, mm(run.begin.met_mm), feed()));
+    feed(axis, run.begin.met_mm);
     if (run.rpm == 0.0) {
       line("M66 E0 L0");
       reading(run.pass, "M68");
@@ -91,7 +94,7 @@ class LinuxCnc final : public Dialect {
     if (!dry_run_) line(fmt::format("{} E0 Q{}", code, pass));
   }
 
-  std::string feed() const { return short_number(60.0 * limits_.feed_mm_per_s, 3); }
+  std::string speed() const { return short_number(feed_per_minute(), 3); }
   static std::string step(double value) { return short_number(value, 9); }
   /// Of touch point k.
   static std::string each(double first, double more) {

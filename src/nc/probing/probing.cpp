@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nc/number_text.hpp"
 #include "nc/probing/dialect.hpp"
@@ -58,10 +59,10 @@ double seconds_of(const ProbingPass& pass, const ProbingPlan& plan, const Probin
           seconds_beside);
 }
 
-std::string described(const ProbingPass& pass, int number, ProbeKind kind) {
-  std::string text =
-      fmt::format("pass {}: Z {} to {} mm, {} turns", number, short_number(pass.start_mm, 3),
-                  short_number(pass.end_mm, 3), short_number(pass.turns, 2));
+std::string described(const ProbingPass& pass, int number, char along, ProbeKind kind) {
+  std::string text = fmt::format("pass {}: {} {} to {} mm, {} turns", number, along,
+                                 short_number(pass.start_mm, 3), short_number(pass.end_mm, 3),
+                                 short_number(pass.turns, 2));
   if (kind == ProbeKind::analogue)
     text += fmt::format(" at {} rpm", short_number(std::abs(pass.rpm()), 1));
   return text + fmt::format(", {} readings{}", pass.readings, pass.rear ? ", rear side" : "");
@@ -94,6 +95,8 @@ std::vector<std::string> log_head(const ProbingPlan& plan, const ProbingLimits& 
   std::vector<std::string> lines{"TRUEAXIS PROBE LOG 1", touch ? "ROWS TOUCH" : "ROWS SAMPLES",
                                  "UNIT MM", limits.x_diameter ? "X DIAMETER" : "X RADIUS",
                                  "BALL NM " + short_number(1e6 * limits.ball_radius_mm, 0)};
+  if (plan.surface == ProbedSurface::bore) lines.emplace_back("FEATURE BORE");
+  if (plan.surface == ProbedSurface::face) lines.emplace_back("READS Z");
   if (!touch) lines.push_back("PERIOD NS " + short_number(1e9 / limits.rate_hz, 0));
   for (std::size_t k = 0; k < plan.passes.size(); ++k) {
     const ProbingPass& pass = plan.passes[k];
@@ -111,10 +114,24 @@ std::vector<std::string> log_head(const ProbingPlan& plan, const ProbingLimits& 
   return lines;
 }
 
-std::string objection_to_part(bool bore, bool face) {
-  if (!bore && !face) return "";
-  return fmt::format("a probing program is for the outside of a shaft, not for a {}",
-                     bore ? "bore" : "face");
+/// To the side that a pass probes, from that of the one before; none: from where the probe is
+/// clear.
+static void come_to(Dialect& words, const ProbingPlan& plan, const ProbingPass& pass,
+                    const ProbingPass* before, const ProbingLimits& limits) {
+  const double clear = approach_of(plan, pass, limits).clear_mm;
+  switch (plan.surface) {
+    case ProbedSurface::shaft:
+      if (pass.rear == (before != nullptr && before->rear)) return;
+      words.rapid('Z', limits.clear_z_mm());  // around the free end of the part
+      return words.rapid('X', clear);
+    case ProbedSurface::bore:
+      if (before != nullptr && pass.rear == before->rear) return;
+      words.rapid('X', clear);
+      if (before == nullptr) words.feed('Z', pass.start_mm);
+      return;
+    case ProbedSurface::face:
+      return;
+  }
 }
 
 ProbingProgram write_probing(const ProbingPlan& plan, const ProbingLimits& limits,
@@ -135,25 +152,31 @@ ProbingProgram write_probing(const ProbingPlan& plan, const ProbingLimits& limit
   std::vector<std::string> remarks{plan.what,
                                    fmt::format("{} {}, about {:.1f} min", out.readings,
                                                touch ? "touch points" : "readings", out.minutes)};
+  if (plan.surface == ProbedSurface::bore)
+    remarks.push_back(fmt::format(
+        "inside a bore that is free to X {} and Z {}, by a stylus along Z of {} mm",
+        short_number(*limits.bore_radius_mm, 3), short_number(*limits.bore_bottom_mm, 3),
+        short_number(*limits.stylus_length_mm, 3)));
+  if (plan.surface == ProbedSurface::face)
+    remarks.emplace_back("Z is that of the centre of the ball: so must the length of the probe be");
   if (dry_run) remarks.emplace_back("dry run: the probe stays off the part and nothing is logged");
   words->begin(remarks, log_head(plan, limits));
-  const double clear_x = limits.clear_x_mm();
-  bool rear = false;
-  words->rapid('X', clear_x);
+  if (plan.surface == ProbedSurface::shaft)
+    words->rapid('X', limits.clear_x_mm());
+  else
+    words->rapid('Z', limits.clear_z_mm());
+  const ProbingPass* before = nullptr;
   for (std::size_t k = 0; k < plan.passes.size(); ++k) {
     const ProbingPass& pass = plan.passes[k];
     const int number = static_cast<int>(k + 1);
-    words->remark(described(pass, number, limits.kind));
-    if (pass.rear != rear) {  // around the free end of the part
-      words->rapid('Z', limits.clear_z_mm());
-      rear = pass.rear;
-      words->rapid('X', rear ? -clear_x : clear_x);
-    }
+    const Approach way = approach_of(plan, pass, limits);
+    words->remark(described(pass, number, way.along(), limits.kind));
+    come_to(*words, plan, pass, std::exchange(before, &pass), limits);
     if (touch)
       words->touch(touch_run(plan, pass, number, limits, dry_run));
     else
       words->scan(scan_run(plan, pass, number, limits, dry_run));
-    words->rapid('X', rear ? -clear_x : clear_x);
+    words->rapid(way.axis, way.clear_mm);
   }
   words->rapid('Z', limits.clear_z_mm());
   words->end();

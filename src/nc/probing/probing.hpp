@@ -2,13 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 /// Programs that measure a plan: the motion, what it must keep to, and how each control writes it.
 namespace trueaxis::nc {
 
-/// One run of the probe along Z, C and Z in proportion.
+enum class ProbedSurface {
+  shaft,  ///< touched inwards along X
+  bore,   ///< touched outwards along X, by a stylus along Z
+  face,   ///< touched along Z
+};
+
+/// One run of the probe along Z (along X on a face), C in proportion.
 struct ProbingPass {
   double start_mm = 0.0, end_mm = 0.0;
   double turns = 0.0;    ///< signed like C; 0: at standstill
@@ -19,17 +26,15 @@ struct ProbingPass {
   double rpm() const { return seconds > 0.0 ? 60.0 * turns / seconds : 0.0; }
 };
 
-/// The passes on a shaft whose radius is known roughly.
+/// The passes on a surface that is known roughly.
 struct ProbingPlan {
   std::string what;  ///< in a few words, for the head of the program
-  double radius_mm = 0.0;
-  double slope = 0.0;  ///< of the radius over Z
+  ProbedSurface surface = ProbedSurface::shaft;
+  double size_mm = 0.0;  ///< radius at Z = 0; of a face its Z
+  double slope = 0.0;    ///< of the radius over Z
   std::vector<ProbingPass> passes;
-  double radius_at(double z_mm) const { return radius_mm + slope * z_mm; }
+  double size_at(double along_mm) const { return size_mm + slope * along_mm; }
 };
-
-/// Why a part cannot be probed by a program; empty: it can.
-std::string objection_to_part(bool bore, bool face);
 
 enum class ProbeKind {
   touch,     ///< a trigger: points at indexed C
@@ -39,22 +44,28 @@ enum class ProbeKind {
 /// What the machine and its operator state. X is a radius, from the spindle axis.
 struct ProbingLimits {
   double x_low_mm = 0.0, x_high_mm = 0.0, z_low_mm = 0.0, z_high_mm = 0.0;
-  double speed_rpm = 0.0;     ///< highest of C
-  double reach_mm = 0.0;      ///< no part, jaw or chuck is farther from the axis than this
-  double front_mm = 0.0;      ///< and none beyond this Z
-  double clearance_mm = 0.0;  ///< that rapid moves keep
+  double speed_rpm = 0.0;  ///< highest of C
+  double reach_mm = 0.0;   ///< no part, jaw or chuck is farther from the axis than this
+  double front_mm = 0.0;   ///< and none beyond this Z
+  std::optional<double> bore_radius_mm;  ///< a bore is free to this distance from the axis
+  std::optional<double> bore_bottom_mm;  ///< and down to this Z
+  double clearance_mm = 0.0;             ///< that rapid moves keep
   ProbeKind kind = ProbeKind::touch;
   double ball_radius_mm = 0.0;
-  double feed_mm_per_s = 0.0;  ///< towards the part
-  double search_mm = 0.0;      ///< how far beyond the expected contact a probe may go
-  double rate_hz = 0.0;        ///< of an analogue probe
-  double spin_up_s = 0.0;      ///< in which C and Z get to their speed, for an analogue probe
-  std::string work_offset;     ///< empty: not stated
-  bool x_diameter = false;     ///< X words and measured positions of the control are diameters
-  char gcode_system = 0;       ///< of FANUC: 'A', 'B' or 'C'; 0: not stated
+  std::optional<double> stylus_radius_mm;  ///< of the shank
+  std::optional<double> stylus_length_mm;  ///< from the ball's centre to the body of the probe
+  double feed_mm_per_s = 0.0;              ///< towards the part
+  double search_mm = 0.0;                  ///< how far beyond the expected contact a probe may go
+  double rate_hz = 0.0;                    ///< of an analogue probe
+  double spin_up_s = 0.0;   ///< in which C and Z get to their speed, for an analogue probe
+  std::string work_offset;  ///< empty: not stated
+  bool x_diameter = false;  ///< X words and measured positions of the control are diameters
+  char gcode_system = 0;    ///< of FANUC: 'A', 'B' or 'C'; 0: not stated
 
   std::string offset() const { return work_offset.empty() ? "G54" : work_offset; }
   double clear_x_mm() const { return reach_mm + ball_radius_mm + clearance_mm; }
+  /// In a bore whose free radius is stated.
+  double inside_x_mm() const { return *bore_radius_mm - ball_radius_mm - clearance_mm; }
   double clear_z_mm() const { return front_mm + ball_radius_mm + clearance_mm; }
 };
 

@@ -1,43 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nc/probing/refusals.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "trueaxis/error.hpp"
+#include "nc/probing/refusal_list.hpp"
 
 namespace trueaxis::nc {
 namespace {
 
-class Refusals {
- public:
-  explicit Refusals(std::string file) : file_(std::move(file)) {}
-  template <class... Values>
-  void unless(bool fine, fmt::format_string<Values...> text, Values&&... values) {
-    if (!fine) list_.push_back({file_, 0, 0, fmt::format(text, std::forward<Values>(values)...)});
-  }
-  void throw_if_any() {
-    if (!list_.empty()) throw InputError(std::move(list_));
-  }
-
- private:
-  std::string file_;
-  std::vector<Diagnostic> list_;
-};
-
 constexpr double least_turns = 1.0;  // of a run-in
 
-/// Z that a pass reaches, its run-in and run-out included.
-std::pair<double, double> z_of(const ProbingPass& pass, const ProbingLimits& limits) {
-  const double before = run_in(pass, limits) * (pass.end_mm - pass.start_mm);
-  return std::minmax({pass.start_mm - before, pass.end_mm + before});
-}
-
 void about_the_probe(const ProbingPlan& plan, const ProbingLimits& limits, ProbingControl control,
-                     Refusals& refusals) {
+                     RefusalList& refusals) {
   if (limits.kind == ProbeKind::analogue) {
     refusals.unless(control == ProbingControl::linuxcnc,
                     "an analogue probe is read by LinuxCNC's sampler only: write the program "
@@ -78,44 +53,8 @@ double run_in(const ProbingPass& pass, const ProbingLimits& limits) {
 
 void expect_drivable(const ProbingPlan& plan, const ProbingLimits& limits, ProbingControl control,
                      const std::string& file) {
-  Refusals refusals(file);
-  const double clear_x = limits.clear_x_mm(), clear_z = limits.clear_z_mm();
-  refusals.unless(clear_x <= limits.x_high_mm,
-                  "rapid moves need X {:.4g} mm (reach, ball and clearance) and X ends at {:.4g} "
-                  "mm",
-                  clear_x, limits.x_high_mm);
-  refusals.unless(
-      clear_z <= limits.z_high_mm,
-      "the probe leaves at Z {:.4g} mm (front, ball and clearance) and Z ends at {:.4g} "
-      "mm",
-      clear_z, limits.z_high_mm);
-  const bool rear = std::ranges::any_of(plan.passes, &ProbingPass::rear);
-  refusals.unless(!rear || -clear_x >= limits.x_low_mm,
-                  "the rear side needs X {:.4g} mm and X begins at {:.4g} mm: probe from the "
-                  "front only, or state what the slide can do",
-                  -clear_x, limits.x_low_mm);
-  for (std::size_t k = 0; k < plan.passes.size(); ++k) {
-    const auto [low, high] = z_of(plan.passes[k], limits);
-    refusals.unless(low >= limits.z_low_mm && high <= limits.z_high_mm,
-                    "pass {} runs from Z {:.4g} to {:.4g} mm with run-in and run-out, and Z goes "
-                    "from {:.4g} to {:.4g} mm",
-                    k + 1, low, high, limits.z_low_mm, limits.z_high_mm);
-    const double free_end = std::max(plan.passes[k].start_mm, plan.passes[k].end_mm);
-    refusals.unless(
-        free_end <= limits.front_mm,
-        "pass {} probes up to Z {:.4g} mm and the part ends at front_mm = {:.4g}: rapid "
-        "moves in front of it would meet what is probed",
-        k + 1, free_end, limits.front_mm);
-    const double thick = plan.slope > 0.0 ? high : low, thin = plan.slope > 0.0 ? low : high;
-    refusals.unless(plan.radius_at(thick) <= limits.reach_mm,
-                    "the part has a radius of {:.4g} mm at Z {:.4g} mm and reach_mm is {:.4g}: "
-                    "state how far part and chuck reach",
-                    plan.radius_at(thick), thick, limits.reach_mm);
-    refusals.unless(plan.radius_at(thin) + limits.ball_radius_mm > limits.search_mm,
-                    "the part has a radius of {:.4g} mm at Z {:.4g} mm: a probe that searches "
-                    "{:.4g} mm farther would pass the axis",
-                    plan.radius_at(thin), thin, limits.search_mm);
-  }
+  RefusalList refusals(file);
+  expect_room(plan, limits, refusals);
   about_the_probe(plan, limits, control, refusals);
   refusals.unless(control == ProbingControl::fanuc || !limits.x_diameter,
                   "x = \"diameter\" is for FANUC: the programs of other controls measure radii");

@@ -35,6 +35,9 @@ class Siemens final : public Dialect {
   void rapid(char axis, double to_mm) override {
     line(fmt::format("G0 {}{}", axis, number(to_mm)));
   }
+  void feed(char axis, double to_mm) override {
+    line(fmt::format("G1 {}{} F{}", axis, number(to_mm), number(feed_per_minute())));
+  }
 
   void touch(const TouchRun& run) override {
     line(fmt::format("FOR K=0 TO {}", run.count - 1));
@@ -47,7 +50,7 @@ class Siemens final : public Dialect {
     line("XS=" + along(run.stop_mm, run.stop_step_mm));
     line(fmt::format("G0 {}=ZP C=DC(CW)", run.approach.along()));
     line(fmt::format("{}G1 {}=XS F{}", dry_run_ ? "" : "MEAS=1 ", run.approach.axis,
-                     number(60.0 * limits_.feed_mm_per_s)));
+                     number(feed_per_minute())));
     if (!dry_run_) {
       line("STOPRE");
       line("IF $AC_MEA[1] == 0");

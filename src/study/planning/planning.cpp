@@ -260,8 +260,11 @@ bool look_for_nearest(const PlanningTask& task, const PlanSearch& search, Planni
   nearer(out.as_given);
   for (const Alone& one : out.alone) nearer(one.plan);
   if (!std::isfinite(out.nearest.u_expanded_mm)) {
-    out.remarks.emplace_back(
-        "no plan of the ranges determines the axis: probe more of the length or the circumference");
+    const bool face = task.base.part.kind == virtual_lathe::PartKind::face;
+    out.remarks.push_back(
+        fmt::format("no plan of the ranges determines the {}: probe more of the length or the "
+                    "circumference",
+                    face ? "face" : "axis"));
   }
   out.reached = search.good(out.nearest);
   return better_probe;
@@ -290,8 +293,6 @@ void sort_by_confirmation(PlanningAnswer& out) {
 }  // namespace
 
 PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgress& progress) {
-  if (asked.base.part.kind == virtual_lathe::PartKind::face)
-    throw InputError("plan", "a face has no axis: plan a cone or a cylinder");
   PlanningTask task = asked;
   PlanningAnswer out;
   check(task);

@@ -39,7 +39,9 @@ struct DesignVariable {
 struct PlanningTask {
   virtual_lathe::Scenario base;
   std::vector<DesignVariable> variables;  ///< each choice once
-  double goal_mm = 1e-3;  ///< largest U = k u of the axis over the probed length, worse direction
+  /// Largest U = k u of the axis over the probed length, in its worse direction; of a face that of
+  /// its height over the probed radii.
+  double goal_mm = 1e-3;
   double coverage_factor = 2.0;
   std::optional<double> rate_hz;  ///< readings a second that the probe gives, at most
   std::optional<double> time_s;   ///< that the measurement may take
@@ -118,8 +120,8 @@ using PlanningProgress =
     std::function<void(PlanningStage stage, std::size_t done, std::size_t to_do)>;
 
 /// The same on any number of threads.
-/// @throws InputError for a face (it has no axis), a scenario that cannot be probed, noise without
-/// a bound, or an invalid goal.
+/// @throws InputError for a scenario that cannot be probed, noise without a bound, or an invalid
+/// goal.
 PlanningAnswer plan_measurement(const PlanningTask& task, const PlanningProgress& progress = {});
 
 }  // namespace trueaxis::study

@@ -10,6 +10,7 @@
 #include "study/planning/planning_search.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::study {
 namespace planning_detail {
@@ -22,6 +23,7 @@ using virtual_lathe::Scenario;
 constexpr double least_per_revolution = 8.3;
 constexpr double beyond_linear_mm = 10.0;  // a bound of derivatives says nothing so far off
 constexpr double sigma_of_reference_mm = 1e-3;
+constexpr int directions_tried = 360;  // of a face: within cos 0.5° of the worst
 
 bool is_independent(const Noise& noise) { return noise.rho == 0.0 && noise.autoregression.empty(); }
 
@@ -43,10 +45,29 @@ std::vector<double> key_of(const Scenario& scenario) {
   return key;
 }
 
+/// The height d − l x − m y of a face at its largest radius, where it is least certain.
+WorstOfAxis worst_of_face(const Scenario& scenario, const Bound& bound) {
+  double radius = 0.0;
+  for (const PlannedPass& pass : scenario.plan.passes)
+    radius = std::max({radius, std::abs(pass.start_mm), std::abs(pass.end_mm)});
+  const Eigen::Matrix3d covariance = Eigen::Map<const Eigen::Matrix3d>(bound.covariance.data());
+  if (!covariance.allFinite()) return {std::numeric_limits<double>::quiet_NaN(), {}};
+  WorstOfAxis worst;
+  for (int k = 0; k < directions_tried; ++k) {
+    const double at = two_pi * k / directions_tried;
+    const Eigen::Vector3d weight(-radius * std::cos(at), -radius * std::sin(at), 1.0);
+    const double sd = std::sqrt(std::max(0.0, weight.dot(covariance * weight)));
+    if (sd > worst.sd_mm) worst = {sd, {weight(0), weight(1), weight(2), 0.0}};
+  }
+  return worst;
+}
+
 WorstOfAxis worked_out(const Scenario& scenario) {
   const StandIn fewer = stand_in(scenario);
-  WorstOfAxis worst =
-      worst_of_axis(fewer.scenario, bound_of(fewer.scenario, surface_of(scenario.part.kind)));
+  const Bound bound = bound_of(fewer.scenario, surface_of(scenario.part.kind));
+  WorstOfAxis worst = scenario.part.kind == virtual_lathe::PartKind::face
+                          ? worst_of_face(fewer.scenario, bound)
+                          : worst_of_axis(fewer.scenario, bound);
   worst.sd_mm /= std::sqrt(fewer.readings_each);
   return worst;
 }
@@ -54,6 +75,7 @@ WorstOfAxis worked_out(const Scenario& scenario) {
 }  // namespace
 
 std::size_t place_of_ends(const Scenario& scenario) {
+  if (scenario.part.kind == virtual_lathe::PartKind::face) return 0;  // l, m, d
   const std::vector<Quantity> all = quantities(surface_of(scenario.part.kind));
   const auto at = std::ranges::find(all, "x_at_min_z", &Quantity::name);
   expects(at != all.end(), "a part with an axis");

@@ -14,7 +14,8 @@
 namespace trueaxis::study::planning_detail {
 
 /// Standard deviation of the axis at its worse end in its worse direction, from a covariance of
-/// quantities(); with the weights of x_at_min_z … there.
+/// quantities(); with the weights of x_at_min_z … there. For a face that of its height where it
+/// is least certain, with the weights of l, m and d.
 struct WorstOfAxis {
   double sd_mm = 0.0;
   std::array<double, 4> weight{};

@@ -37,18 +37,36 @@ nc::ProbingPass driven(const PlannedPass& pass, bool rear) {
   return out;
 }
 
-/// Radius at z = 0 and its slope, where the passes are.
+/// Radius at z = 0 and its slope, where the passes are; of a face its Z at the centre.
 void take_shape(const Scenario& scenario, nc::ProbingPlan& plan) {
   const Part& part = scenario.part;
-  plan.radius_mm = part.radius_mm;
+  if (part.kind == PartKind::face) {
+    plan.surface = nc::ProbedSurface::face;
+    plan.size_mm = part.d_mm / std::sqrt(1.0 - part.l * part.l - part.m * part.m);
+    return;
+  }
+  if (part.bore) plan.surface = nc::ProbedSurface::bore;
+  plan.size_mm = part.radius_mm;
   if (part.kind != PartKind::cone) return;
   const double tangent = std::tan(part.half_angle_rad);
   if (part.apex_mm) {
     const double side = scenario.plan.passes.front().start_mm < *part.apex_mm ? -1.0 : 1.0;
-    plan.slope = side * tangent, plan.radius_mm = -plan.slope * *part.apex_mm;
+    plan.slope = side * tangent, plan.size_mm = -plan.slope * *part.apex_mm;
   } else {
-    plan.slope = tangent, plan.radius_mm -= tangent * part.radius_at_mm;
+    plan.slope = tangent, plan.size_mm -= tangent * part.radius_at_mm;
   }
+}
+
+void take_shape(const FitResult& fit, nc::ProbingPlan& plan) {
+  if (fit.surface == SurfaceKind::plane) {
+    const double l = fit.parameter("l").value, m = fit.parameter("m").value;
+    plan.surface = nc::ProbedSurface::face;
+    plan.size_mm = fit.parameter("d").value / std::sqrt(1.0 - l * l - m * m);
+    return;
+  }
+  if (fit.bore) plan.surface = nc::ProbedSurface::bore;
+  plan.slope = fit.shape.tan_half_angle;
+  plan.size_mm = fit.shape.radius_mm - plan.slope * fit.shape.axis.z_ref_mm;
 }
 
 }  // namespace
@@ -56,10 +74,6 @@ void take_shape(const Scenario& scenario, nc::ProbingPlan& plan) {
 nc::ProbingPlan probing_plan(const Scenario& scenario) {
   std::vector<Diagnostic> wrong;
   const auto refuse = [&](std::string why) { wrong.push_back({"", 0, 0, std::move(why)}); };
-  if (const std::string why =
-          nc::objection_to_part(scenario.part.bore, scenario.part.kind == PartKind::face);
-      !why.empty())
-    refuse(why);
   if (!scenario.probe.sensor_angles_rad.empty())
     refuse("a probing program has one probe, not several sensors");
   nc::ProbingPlan plan;
@@ -80,16 +94,13 @@ nc::ProbingPlan probing_plan(const Scenario& scenario) {
 
 std::vector<nc::ProbingPlan> probing_plans(const Diagnosis& diagnosis) {
   const FitResult& fit = diagnosis.extended;
-  expects(nc::objection_to_part(fit.bore, fit.surface == SurfaceKind::plane).empty(),
-          "the outside of a shaft");
   std::vector<nc::ProbingPlan> out;
   for (std::size_t k = 0; k < diagnosis.plans.size(); ++k) {
     const Separating& measure = diagnosis.plans[k];
     if (diagnosis.runs[k].empty() || !(measure.power > measure.power_before)) continue;
     nc::ProbingPlan& plan = out.emplace_back();
     plan.what = measure.what;
-    plan.slope = fit.shape.tan_half_angle;
-    plan.radius_mm = fit.shape.radius_mm - plan.slope * fit.shape.axis.z_ref_mm;
+    take_shape(fit, plan);
     for (const ProbingRun& run : diagnosis.runs[k])
       plan.passes.push_back({run.from_mm, run.to_mm, run.turns, run.seconds,
                              static_cast<std::size_t>(std::lround(run.readings)), run.c_rad,

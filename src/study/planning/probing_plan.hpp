@@ -15,7 +15,6 @@ nc::ProbingPlan probing_plan(const virtual_lathe::Scenario& scenario);
 
 /// The measurements of a diagnosis that a control can make alone and that tell more than what was
 /// measured, the best first. Each begins with the passes measured, so that its log tells all.
-/// Expects a part that a program can probe (nc::objection_to_part).
 std::vector<nc::ProbingPlan> probing_plans(const Diagnosis& diagnosis);
 
 }  // namespace trueaxis::study

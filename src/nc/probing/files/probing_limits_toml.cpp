@@ -26,6 +26,8 @@ void read_probe(TomlTable table, nc::ProbingLimits& limits) {
   limits.kind = table.required_choice<nc::ProbeKind>(
       "kind", {{"touch", nc::ProbeKind::touch}, {"analogue", nc::ProbeKind::analogue}});
   limits.ball_radius_mm = table.number("ball_radius_mm", 0.0, Range::non_negative());
+  limits.stylus_radius_mm = table.maybe_number("stylus_radius_mm", Range::positive());
+  limits.stylus_length_mm = table.maybe_number("stylus_length_mm", Range::positive());
   limits.feed_mm_per_s = table.required_number("feed_mm_per_s", Range::positive());
   limits.clearance_mm = table.required_number("clearance_mm", Range::positive());
   if (limits.kind == nc::ProbeKind::analogue) {
@@ -73,6 +75,8 @@ nc::ProbingLimits parse_probing_limits(std::string_view content, const std::stri
   TomlTable part = root.required_table("part");
   limits.reach_mm = part.required_number("reach_mm", Range::positive());
   limits.front_mm = part.required_number("front_mm");
+  limits.bore_radius_mm = part.maybe_number("bore_radius_mm", Range::positive());
+  limits.bore_bottom_mm = part.maybe_number("bore_bottom_mm");
   read_probe(root.required_table("probe"), limits);
   if (auto control = root.maybe_table("control")) read_control(*control, limits);
   document.finish();

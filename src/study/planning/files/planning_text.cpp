@@ -150,9 +150,10 @@ std::string plans_text(const PlanningTask& task, const std::vector<Recommendatio
 }  // namespace
 
 std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer) {
+  const bool face = task.base.part.kind == virtual_lathe::PartKind::face;
   std::string text =
-      format("U(axis) ≤ {} µm, k = {:g}\n\nThe plan as it is\n  {}  {}\n", um(task.goal_mm),
-             task.coverage_factor, head, row_text(answer.as_given));
+      format("U({}) ≤ {} µm, k = {:g}\n\nThe plan as it is\n  {}  {}\n", face ? "face" : "axis",
+             um(task.goal_mm), task.coverage_factor, head, row_text(answer.as_given));
   if (!answer.alone.empty()) text += alone_text(task, answer);
   if (!answer.table.empty()) {
     text += format("\nOver the ranges, {} as needed\n  {}", info_of(answer.solved_for).words, head);
