@@ -182,9 +182,6 @@ TEST(PlanningLaw, TheLeastLengthIsTheQuickest) {
 }
 
 TEST(PlanningLaw, RefusesWhatHasNoAnswer) {
-  PlanningTask face = cylinder_task();
-  face.base.part.kind = virtual_lathe::PartKind::face;
-  EXPECT_THROW(plan_measurement(face), InputError);
   PlanningTask perfect = cylinder_task();
   perfect.base.noise.sigma_mm = 0.0;
   EXPECT_THROW(plan_measurement(perfect), InputError);
