@@ -94,21 +94,40 @@ int advise_machine(const AdviseArguments& options, const std::string& content, O
   return advise_machine_job(job, options.results, outputs, options.verbose);
 }
 
+/// Writes the next measurement of every reference as one program; what the screen says of it.
+std::string write_job_program(const AdviseArguments& options, const IdentifiedJob& job,
+                              Outputs& outputs) {
+  if (!options.program.asked()) return "";
+  std::vector<std::pair<std::string, std::vector<nc::ProbingPlan>>> references;
+  for (std::size_t i = 0; i < job.diagnoses.size(); ++i)
+    references.emplace_back(job.job.references[i].name, study::probing_plans(*job.diagnoses[i]));
+  const std::string& place = options.results["--output"];
+  std::string what;
+  const nc::ProbingProgram program = options.program.write_each(references, place, what);
+  outputs.write(place, program.text);
+  return "\nProgram\n  " + ProbingOption::line(program, place) + what;
+}
+
 int advise_job(const CLI::App& command, AdviseArguments& options) {
   constexpr const char* in_job = "is for a stream alone: write it into the job";
-  expect_none(command, {"--control", "--limits", "--air-run", "--output"},
-              "is for a stream: name that of a reference, with its --surface");
-  expect_only(command, {"stream", "--false-alarm", "--json", "--force", "--verbose", "--check"},
+  expect_only(command,
+              {"stream", "--false-alarm", "--json", "--force", "--verbose", "--check", "--control",
+               "--limits", "--air-run", "--output"},
               in_job);
   const std::string content = read_file(options.stream.path);
   const Results& results = options.results;
   Outputs outputs(results.force);
   outputs.reads(options.stream.path);
   const bool machine = is_machine_job(content, options.stream.path);
-  if (machine)
+  if (machine) {
     expect_none(command, {"--false-alarm"}, in_job);
-  else
+    expect_none(command, {"--control", "--limits", "--air-run", "--output"},
+                "is for a lathe: a machine of several axes has --machine and --program");
+  } else {
     options.results.say("--json", "trueaxis.advice");
+    options.results.say("--output", "trueaxis.probing_program");
+    options.program.read(options.results, outputs);
+  }
   results.name_to(outputs);
   if (machine) return advise_machine(options, content, outputs);
   JobFile file = read_job_toml(content, options.stream.path);
@@ -145,7 +164,9 @@ int advise_job(const CLI::App& command, AdviseArguments& options) {
     std::cout << "\nTolerance of the job\n" << layout::wrapped("  ", verdict_line(found));
   results.write(outputs, "--json",
                 [&] { return json_text(advice_object(options.stream.path, found, judge)); });
+  const std::string program = write_job_program(options, found, outputs);
   outputs.commit();
+  if (!printed) std::cout << program;
   if (!printed) std::cout << results.line("result ", "--json");
   return worst;
 }

@@ -104,7 +104,7 @@ std::string write_program(const PlanArguments& options, const study::Recommendat
   const std::string& place = options.results["--output"];
   nc::ProbingPlan plan = study::probing_plan(chosen->plan.scenario);
   plan.what = chosen->what;
-  const nc::ProbingProgram program = options.program.write(std::move(plan), place);
+  const nc::ProbingProgram program = options.program.write({&plan, 1}, place);
   outputs.write(place, program.text);
   return "\nProgram of the plan " + chosen->what + "\n  " + ProbingOption::line(program, place);
 }

@@ -24,6 +24,9 @@ nc::ProbingControl control_of(const std::string& word) {
   return word == "siemens" ? nc::ProbingControl::siemens : nc::ProbingControl::linuxcnc;
 }
 
+constexpr const char* nothing_to_write =
+    "no measurement that control and probe can make alone tells more: there is no program to write";
+
 /// A control takes letters, digits, '_' and '-' in the name of a log.
 std::string log_name(const std::string& output) {
   if (output == "-") return "probe";
@@ -56,13 +59,14 @@ void ProbingOption::read(const Results& results, Outputs& outputs) {
   limits_ = parse_probing_limits(read_file(limits_file_), limits_file_);
 }
 
-nc::ProbingProgram ProbingOption::write(nc::ProbingPlan plan, const std::string& output) const {
-  return nc::write_probing(plan, limits_, control_of(control_), log_name(output), dry_run_,
+nc::ProbingProgram ProbingOption::write(std::span<const nc::ProbingPlan> plans,
+                                        const std::string& output) const {
+  return nc::write_probing(plans, limits_, control_of(control_), log_name(output), dry_run_,
                            limits_file_);
 }
 
-nc::ProbingProgram ProbingOption::write_first(const std::vector<nc::ProbingPlan>& plans,
-                                              const std::string& output) const {
+std::optional<nc::ProbingPlan> ProbingOption::first_driven(
+    const std::vector<nc::ProbingPlan>& plans) const {
   std::optional<InputError> first;
   for (const nc::ProbingPlan& plan : plans) {
     // It reads at standstill, so the sense of C and a pass at standstill tell nothing.
@@ -73,15 +77,44 @@ nc::ProbingProgram ProbingOption::write_first(const std::vector<nc::ProbingPlan>
         !std::ranges::all_of(plan.passes, turns_like_the_first))
       continue;
     try {
-      return write(plan, output);
+      write({&plan, 1}, "-");
+      return plan;
     } catch (const InputError& error) {
       if (!first) first = error;
     }
   }
   if (first) throw InputError(*first);
-  throw Refusal(
-      "no measurement that control and probe can make alone tells more: there is no program to "
-      "write");
+  return {};
+}
+
+nc::ProbingProgram ProbingOption::write_first(const std::vector<nc::ProbingPlan>& plans,
+                                              const std::string& output) const {
+  const std::optional<nc::ProbingPlan> plan = first_driven(plans);
+  if (!plan) throw Refusal(nothing_to_write);
+  return write({&*plan, 1}, output);
+}
+
+nc::ProbingProgram ProbingOption::write_each(
+    const std::vector<std::pair<std::string, std::vector<nc::ProbingPlan>>>& references,
+    const std::string& output, std::string& what) const {
+  std::vector<nc::ProbingPlan> driven;
+  std::string left;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    auto [name, plans] = references[i];
+    for (nc::ProbingPlan& plan : plans) {
+      plan.what = name + ": " + plan.what;
+      plan.log = std::to_string(i + 1) + "_" + log_name(name);
+    }
+    if (std::optional<nc::ProbingPlan> plan = first_driven(plans)) {
+      what += "  log " + log_name(output) + "_" + plan->log + ": " + plan->what + "\n";
+      driven.push_back(std::move(*plan));
+    } else {
+      left += "  " + name + ": no measurement that control and probe can make alone tells more\n";
+    }
+  }
+  if (driven.empty()) throw Refusal(nothing_to_write);
+  what += left;
+  return write(driven, output);
 }
 
 std::string ProbingOption::line(const nc::ProbingProgram& program, const std::string& output) {

@@ -55,7 +55,7 @@ class ProbingProgram : public CommandTest {
   static void expect_clear(const std::vector<Call>& all) {
     Call before{"", 100.0, 60.0};
     for (const Call& one : all) {
-      if (one.name == "LOG") continue;
+      if (one.name.starts_with("LOG")) continue;
       if (one.name == "STRAIGHT_TRAVERSE") {
         const bool beside =
             std::min(std::abs(one.x), std::abs(before.x)) >= reach + ball + clearance - 1e-3 &&
@@ -205,9 +205,6 @@ TEST_F(ProbingProgram, AProbeThatCannotReadTheBestPlanDrivesTheNextBest) {
       command("advise --machine m.toml --control linuxcnc --limits limits.toml -o p.ngc");
   EXPECT_EQ(machine.exit_code, 2);
   EXPECT_TRUE(contains(machine.err, "--control: is for a stream")) << machine.err;
-  const CommandStreams job = command("advise j.toml --control siemens --limits limits.toml -o p.m");
-  EXPECT_EQ(job.exit_code, 2);
-  EXPECT_TRUE(contains(job.err, "--control: is for a stream")) << job.err;
   EXPECT_FALSE(there("p.ngc"));
   const CommandStreams bore = command(
       "advise part.csv --surface cylinder --bore --control linuxcnc --limits limits.toml -o p.ngc");

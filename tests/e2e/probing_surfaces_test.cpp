@@ -66,8 +66,8 @@ TEST_F(ProbingSurfaces, ABoreIsTouchedFromInsideAndFittedAsItIs) {
   // 3 mm of clearance to a free radius that the bore keeps to 0.3 mm less its offset.
   EXPECT_GT(run.nearest_mm, 3.0);
   for (const Call& one : calls) EXPECT_TRUE(one.name != "STRAIGHT_FEED" || one.feed == 150.0);
-  file("p.log", run.log);
-  ASSERT_EQ(command("import p.log -o s.csv").exit_code, 0) << run.log;
+  file("p.log", run.logs.at("p.log"));
+  ASSERT_EQ(command("import p.log -o s.csv").exit_code, 0) << run.logs.at("p.log");
   EXPECT_TRUE(contains(read_text(folder_ / "s.toml"), "feature = \"bore\""));
   const CommandStreams fit = command("fit s.csv --surface cylinder --json fit.json");
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
@@ -114,8 +114,8 @@ TEST_F(ProbingSurfaces, AFaceIsTouchedAlongZAndFittedAsItIs) {
   EXPECT_EQ(count(calls, "STRAIGHT_FEED"), 0u);
   // Rapid moves stay 3 mm in front of front_mm = 0.5; the face rises to 0.06 mm at 36 mm.
   EXPECT_GT(run.nearest_mm, 3.4);
-  file("p.log", run.log);
-  ASSERT_EQ(command("import p.log -o s.csv").exit_code, 0) << run.log;
+  file("p.log", run.logs.at("p.log"));
+  ASSERT_EQ(command("import p.log -o s.csv").exit_code, 0) << run.logs.at("p.log");
   EXPECT_TRUE(contains(read_text(folder_ / "s.csv"), "\nX[mm],Z_M[mm],C[deg],pass,setup\n"));
   const CommandStreams fit = command("fit s.csv --surface plane --json fit.json");
   ASSERT_EQ(fit.exit_code, 0) << fit.err;

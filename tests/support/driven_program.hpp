@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,25 +14,31 @@ namespace trueaxis::testing {
 
 /// What LinuxCNC would log where a probe stops at the part instead of where the program ends it.
 struct Driven {
-  std::string log, trouble;
+  std::string trouble;
+  std::map<std::string, std::string> logs;  ///< by the names of their files
   std::vector<BallAt> touched;
   double nearest_mm = 1e9;  ///< of all moves but those that probe
 };
 inline Driven driven(const std::vector<Call>& calls, const PartGap& part) {
   Driven out;
   BallAt at{100.0, 60.0, 0.0};
+  std::string* log = &out.logs[""];
   for (const Call& one : calls) {
+    if (one.name == "LOGOPEN") {
+      log = &out.logs[one.words];
+      continue;
+    }
     if (one.name == "LOG") {
       const std::size_t pass = one.words.find(" P ");
       if (pass != std::string::npos) {
         char row[100];
         std::snprintf(row, sizeof row, "X %.6f C %.6f Z %.6f", at.x, at.c_deg, at.z);
-        out.log += row + one.words.substr(pass);
+        *log += row + one.words.substr(pass);
         out.touched.push_back(at);
       } else {
-        out.log += one.words;
+        *log += one.words;
       }
-      out.log += '\n';
+      *log += '\n';
       continue;
     }
     const bool probing = one.name == "STRAIGHT_PROBE";

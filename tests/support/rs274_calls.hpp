@@ -20,7 +20,7 @@ struct Call {
   std::string name;
   double x = 0.0, z = 0.0, c = 0.0;
   double feed = 0.0;    ///< in force
-  std::string words{};  ///< of a LOG
+  std::string words{};  ///< of LOG and LOGOPEN
 };
 
 inline bool has_interpreter() { return shell("command -v rs274").exit_code == 0; }
@@ -33,7 +33,7 @@ inline std::vector<Call> interpreted(const std::filesystem::path& folder,
   EXPECT_EQ(done.exit_code, 0) << done.output;
   const std::regex move(
       R"(.*(STRAIGHT_[A-Z]+)\(([-\d.]+), [-\d.]+, ([-\d.]+), [-\d.]+, [-\d.]+, ([-\d.]+)\))");
-  const std::regex rate(R"(.*SET_FEED_RATE\(([\d.]+)\))"), log(R"x(.* LOG\("(.*)"\))x");
+  const std::regex rate(R"(.*SET_FEED_RATE\(([\d.]+)\))"), log(R"x(.* (LOG|LOGOPEN)\("(.*)"\))x");
   std::vector<Call> out;
   std::istringstream lines(done.output);
   std::smatch found;
@@ -44,7 +44,7 @@ inline std::vector<Call> interpreted(const std::filesystem::path& folder,
       out.push_back(
           {found[1], std::stod(found[2]), std::stod(found[3]), std::stod(found[4]), feed});
     else if (std::regex_match(line, found, log))
-      out.push_back({"LOG", 0.0, 0.0, 0.0, feed, found[1]});
+      out.push_back({found[1], 0.0, 0.0, 0.0, feed, found[2]});
   }
   return out;
 }

@@ -49,8 +49,10 @@ class Dialect {
   Dialect(const ProbingLimits& limits, std::string name, bool dry_run)
       : limits_(limits), name_(std::move(name)), dry_run_(dry_run) {}
   virtual ~Dialect() = default;
-  virtual void begin(const std::vector<std::string>& remarks,
-                     const std::vector<std::string>& log) = 0;
+  virtual void begin(const std::vector<std::string>& remarks) = 0;
+  /// What follows is logged after these lines, until close_log(). Not in a dry run.
+  virtual void open_log(const std::string& name, const std::vector<std::string>& head) = 0;
+  virtual void close_log() = 0;
   virtual void remark(const std::string& words) = 0;
   virtual void rapid(char axis, double mm) = 0;
   virtual void feed(char axis, double mm) = 0;  ///< at the feed towards the part
@@ -61,11 +63,16 @@ class Dialect {
 
  protected:
   void line(const std::string& words) { text_ += words + '\n'; }
+  /// The number of a loop, once in a program.
+  int next_label() { return ++labels_; }
   double feed_per_minute() const { return 60.0 * limits_.feed_mm_per_s; }
   const ProbingLimits& limits_;
   std::string name_;
   bool dry_run_;
   std::string text_;
+
+ private:
+  int labels_ = 0;
 };
 
 std::unique_ptr<Dialect> linuxcnc_dialect(const ProbingLimits& limits, const std::string& name,

@@ -12,8 +12,7 @@ class Fanuc final : public Dialect {
  public:
   using Dialect::Dialect;
 
-  void begin(const std::vector<std::string>& remarks,
-             const std::vector<std::string>& log) override {
+  void begin(const std::vector<std::string>& remarks) override {
     line("%");
     line("O8001");
     remark("schema: trueaxis.probing_program/1");
@@ -26,9 +25,15 @@ class Fanuc final : public Dialect {
     line(fmt::format("IF[#5042GE{}]GOTO10", number(limits_.clear_z_mm())));
     line("#3000=1(THE PROBE IS NOT CLEAR)");
     line("N10");
-    if (dry_run_) return;
+  }
+
+  void open_log(const std::string&, const std::vector<std::string>& head) override {
     line("POPEN");
-    for (const std::string& one : log) line(fmt::format("DPRNT[{}]", starred(one)));
+    for (const std::string& one : head) line(fmt::format("DPRNT[{}]", starred(one)));
+  }
+  void close_log() override {
+    line(fmt::format("DPRNT[{}]", log_end));
+    line("PCLOS");
   }
 
   void remark(const std::string& words) override { line(fmt::format("( {} )", words)); }
@@ -62,10 +67,6 @@ class Fanuc final : public Dialect {
   }
 
   void end() override {
-    if (!dry_run_) {
-      line(fmt::format("DPRNT[{}]", log_end));
-      line("PCLOS");
-    }
     line("M30");
     line("%");
   }

@@ -23,8 +23,7 @@ class Heidenhain final : public Dialect {
  public:
   using Dialect::Dialect;
 
-  void begin(const std::vector<std::string>& remarks,
-             const std::vector<std::string>& log) override {
+  void begin(const std::vector<std::string>& remarks) override {
     block(fmt::format("BEGIN PGM {} MM", name_));
     remark("schema: trueaxis.probing_program/1");
     for (const std::string& one : remarks) remark(one);
@@ -43,9 +42,13 @@ class Heidenhain final : public Dialect {
     block(fmt::format("FN 12: IF +Q23 LT {} GOTO LBL {}", with_sign(limits_.clear_z_mm()),
                       not_clear));
     block(fmt::format("LBL {}", clear));
-    if (dry_run_) return;
-    for (const std::string& one : log) print(one);
   }
+
+  void open_log(const std::string& name, const std::vector<std::string>& head) override {
+    log_ = name;
+    for (const std::string& one : head) print(one);
+  }
+  void close_log() override { print(std::string(log_end)); }
 
   void remark(const std::string& words) override { block("; " + words); }
   void rapid(char axis, double to_mm) override {
@@ -56,7 +59,7 @@ class Heidenhain final : public Dialect {
   }
 
   void touch(const TouchRun& run) override {
-    const int label = first_pass + run.pass;
+    const int label = before_loops + next_label();
     const Approach& way = run.approach;
     block("Q10 = 0");
     block(fmt::format("LBL {}", label));
@@ -89,7 +92,6 @@ class Heidenhain final : public Dialect {
   }
 
   void end() override {
-    if (!dry_run_) print(std::string(log_end));
     block("M30");
     stop(not_clear, "the probe is not clear of the part, or Y is not 0", 1005);
     stop(no_contact, "no contact", 1014);
@@ -97,7 +99,7 @@ class Heidenhain final : public Dialect {
   }
 
  private:
-  enum : int { not_clear = 1, no_contact, in_front, clear, first_pass = 10 };
+  enum : int { not_clear = 1, no_contact, in_front, clear, before_loops = 10 };
 
   std::string speed() const { return short_number(feed_per_minute(), 3); }
   void block(const std::string& words) { line(fmt::format("{} {}", blocks_++, words)); }
@@ -111,7 +113,7 @@ class Heidenhain final : public Dialect {
 
   /// The mask appends: a log of an earlier run must be moved away, or import refuses the two.
   void append() {
-    block(fmt::format(R"(FN 16: F-PRINT TNC:\trueaxis_line.a / TNC:\{}_log.txt)", name_));
+    block(fmt::format(R"(FN 16: F-PRINT TNC:\trueaxis_line.a / TNC:\{}_log.txt)", log_));
   }
   void print(const std::string& words) {
     block(fmt::format("DECLARE STRING QS1 = \"{}\"", words));
@@ -141,6 +143,7 @@ class Heidenhain final : public Dialect {
     return text;
   }
 
+  std::string log_;
   std::size_t blocks_ = 0;
 };
 

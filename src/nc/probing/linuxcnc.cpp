@@ -16,8 +16,7 @@ class LinuxCnc final : public Dialect {
  public:
   using Dialect::Dialect;
 
-  void begin(const std::vector<std::string>& remarks,
-             const std::vector<std::string>& log) override {
+  void begin(const std::vector<std::string>& remarks) override {
     remark("schema: trueaxis.probing_program/1");
     for (const std::string& text : remarks) remark(text);
     remark("X is a radius from the spindle axis; call the probe and its offset before");
@@ -27,9 +26,16 @@ class LinuxCnc final : public Dialect {
     line(fmt::format("  (ABORT,the probe is not clear of the part: jog it beyond X {} or Z {})", x,
                      z));
     line("o100 endif");
-    if (dry_run_) return;
-    line(fmt::format("(LOGOPEN,{}.log)", name_));
-    for (const std::string& text : log) line(fmt::format("(LOG,{})", text));
+  }
+
+  void open_log(const std::string& name, const std::vector<std::string>& head) override {
+    line(fmt::format("(LOGOPEN,{}.log)", name));
+    for (const std::string& text : head) line(fmt::format("(LOG,{})", text));
+  }
+  void close_log() override {
+    line("M66 E0 L0 ( what follows waits for the moves before )");
+    line(fmt::format("(LOG,{})", log_end));
+    line("(LOGCLOSE)");
   }
 
   void remark(const std::string& words) override { line(fmt::format("( {} )", words)); }
@@ -39,7 +45,7 @@ class LinuxCnc final : public Dialect {
   }
 
   void touch(const TouchRun& run) override {
-    const int label = 100 + run.pass;
+    const int label = 100 + next_label();
     start_of_turn();
     line("#<k> = 0");
     line(fmt::format("o{} while [#<k> LT {}]", label, run.count));
@@ -77,14 +83,7 @@ class LinuxCnc final : public Dialect {
     line("G94");
   }
 
-  void end() override {
-    if (!dry_run_) {
-      line("M66 E0 L0 ( what follows waits for the moves before )");
-      line(fmt::format("(LOG,{})", log_end));
-      line("(LOGCLOSE)");
-    }
-    line("M2");
-  }
+  void end() override { line("M2"); }
 
  private:
   void start_of_turn() { line("#<turn> = [360 * FIX[#5425 / 360]]"); }

@@ -59,6 +59,32 @@ double seconds_of(const ProbingPass& pass, const ProbingPlan& plan, const Probin
           seconds_beside);
 }
 
+/// What is to be known of a program before it is run; `out` gets its readings and time.
+std::vector<std::string> head_of(std::span<const ProbingPlan> plans, const ProbingLimits& limits,
+                                 bool dry_run, ProbingProgram& out) {
+  std::vector<std::string> remarks, ways;
+  for (const ProbingPlan& plan : plans) {
+    remarks.push_back(plan.what);
+    for (const ProbingPass& pass : plan.passes) {
+      out.readings += pass.readings;
+      out.minutes += seconds_of(pass, plan, limits) / 60.0;
+    }
+    if (plan.surface == ProbedSurface::bore)
+      ways.push_back(fmt::format(
+          "inside a bore that is free to X {} and Z {}, by a stylus along Z of {} mm",
+          short_number(*limits.bore_radius_mm, 3), short_number(*limits.bore_bottom_mm, 3),
+          short_number(*limits.stylus_length_mm, 3)));
+    if (plan.surface == ProbedSurface::face)
+      ways.emplace_back("Z is that of the centre of the ball: so must the length of the probe be");
+  }
+  remarks.push_back(fmt::format("{} {}, about {:.1f} min", out.readings,
+                                limits.kind == ProbeKind::touch ? "touch points" : "readings",
+                                out.minutes));
+  remarks.insert(remarks.end(), ways.begin(), ways.end());
+  if (dry_run) remarks.emplace_back("dry run: the probe stays off the part and nothing is logged");
+  return remarks;
+}
+
 std::string described(const ProbingPass& pass, int number, char along, ProbeKind kind) {
   std::string text = fmt::format("pass {}: {} {} to {} mm, {} turns", number, along,
                                  short_number(pass.start_mm, 3), short_number(pass.end_mm, 3),
@@ -134,51 +160,47 @@ static void come_to(Dialect& words, const ProbingPlan& plan, const ProbingPass& 
   }
 }
 
-ProbingProgram write_probing(const ProbingPlan& plan, const ProbingLimits& limits,
-                             ProbingControl control, const std::string& name, bool dry_run,
-                             const std::string& file) {
-  expect_drivable(plan, limits, control, file);
-  ProbingProgram out;
-  for (const ProbingPass& pass : plan.passes) {
-    out.readings += pass.readings;
-    out.minutes += seconds_of(pass, plan, limits) / 60.0;
-  }
-  const auto make = control == ProbingControl::fanuc        ? fanuc_dialect
-                    : control == ProbingControl::siemens    ? siemens_dialect
-                    : control == ProbingControl::heidenhain ? heidenhain_dialect
-                                                            : linuxcnc_dialect;
-  const std::unique_ptr<Dialect> words = make(limits, name, dry_run);
-  const bool touch = limits.kind == ProbeKind::touch;
-  std::vector<std::string> remarks{plan.what,
-                                   fmt::format("{} {}, about {:.1f} min", out.readings,
-                                               touch ? "touch points" : "readings", out.minutes)};
-  if (plan.surface == ProbedSurface::bore)
-    remarks.push_back(fmt::format(
-        "inside a bore that is free to X {} and Z {}, by a stylus along Z of {} mm",
-        short_number(*limits.bore_radius_mm, 3), short_number(*limits.bore_bottom_mm, 3),
-        short_number(*limits.stylus_length_mm, 3)));
-  if (plan.surface == ProbedSurface::face)
-    remarks.emplace_back("Z is that of the centre of the ball: so must the length of the probe be");
-  if (dry_run) remarks.emplace_back("dry run: the probe stays off the part and nothing is logged");
-  words->begin(remarks, log_head(plan, limits));
+/// The passes of a plan, from a clear position, and back to in front of the part.
+static void drive(Dialect& words, const ProbingPlan& plan, const ProbingLimits& limits,
+                  bool dry_run) {
   if (plan.surface == ProbedSurface::shaft)
-    words->rapid('X', limits.clear_x_mm());
+    words.rapid('X', limits.clear_x_mm());
   else
-    words->rapid('Z', limits.clear_z_mm());
+    words.rapid('Z', limits.clear_z_mm());
   const ProbingPass* before = nullptr;
   for (std::size_t k = 0; k < plan.passes.size(); ++k) {
     const ProbingPass& pass = plan.passes[k];
     const int number = static_cast<int>(k + 1);
     const Approach way = approach_of(plan, pass, limits);
-    words->remark(described(pass, number, way.along(), limits.kind));
-    come_to(*words, plan, pass, std::exchange(before, &pass), limits);
-    if (touch)
-      words->touch(touch_run(plan, pass, number, limits, dry_run));
+    words.remark(described(pass, number, way.along(), limits.kind));
+    come_to(words, plan, pass, std::exchange(before, &pass), limits);
+    if (limits.kind == ProbeKind::touch)
+      words.touch(touch_run(plan, pass, number, limits, dry_run));
     else
-      words->scan(scan_run(plan, pass, number, limits, dry_run));
-    words->rapid(way.axis, way.clear_mm);
+      words.scan(scan_run(plan, pass, number, limits, dry_run));
+    words.rapid(way.axis, way.clear_mm);
   }
-  words->rapid('Z', limits.clear_z_mm());
+  words.rapid('Z', limits.clear_z_mm());
+}
+
+ProbingProgram write_probing(std::span<const ProbingPlan> plans, const ProbingLimits& limits,
+                             ProbingControl control, const std::string& name, bool dry_run,
+                             const std::string& file) {
+  expect_drivable(plans, limits, control, file);
+  const auto make = control == ProbingControl::fanuc        ? fanuc_dialect
+                    : control == ProbingControl::siemens    ? siemens_dialect
+                    : control == ProbingControl::heidenhain ? heidenhain_dialect
+                                                            : linuxcnc_dialect;
+  const std::unique_ptr<Dialect> words = make(limits, name, dry_run);
+  ProbingProgram out;
+  words->begin(head_of(plans, limits, dry_run, out));
+  for (const ProbingPlan& plan : plans) {
+    if (plans.size() > 1) words->remark(plan.what);
+    if (!dry_run)
+      words->open_log(plan.log.empty() ? name : name + "_" + plan.log, log_head(plan, limits));
+    drive(*words, plan, limits, dry_run);
+    if (!dry_run) words->close_log();
+  }
   words->end();
   out.text = words->text();
   return out;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct ProbingPass {
 /// The passes on a surface that is known roughly.
 struct ProbingPlan {
   std::string what;  ///< in a few words, for the head of the program
+  std::string log;   ///< of several plans in a program: what its log's name ends with
   ProbedSurface surface = ProbedSurface::shaft;
   double size_mm = 0.0;  ///< radius at Z = 0; of a face its Z
   double slope = 0.0;    ///< of the radius over Z
@@ -77,10 +79,11 @@ struct ProbingProgram {
   double minutes = 0.0;  ///< about
 };
 
-/// @param name of the program's file, without folder and ending: the log is called after it
+/// The plans one after the other, each with its own log.
+/// @param name of the program's file, without folder and ending: the logs are called after it
 /// @param file of the limits, which diagnostics name
-/// @throws InputError with every reason why the plan cannot be driven so
-ProbingProgram write_probing(const ProbingPlan& plan, const ProbingLimits& limits,
+/// @throws InputError with every reason why a plan cannot be driven so
+ProbingProgram write_probing(std::span<const ProbingPlan> plans, const ProbingLimits& limits,
                              ProbingControl control, const std::string& name, bool dry_run,
                              const std::string& file);
 

@@ -16,16 +16,19 @@ namespace trueaxis::nc {
 class RefusalList {
  public:
   explicit RefusalList(std::string file) : file_(std::move(file)) {}
+  /// Of which of several plans the next ones are.
+  void about(const std::string& plan) { before_ = plan.empty() ? "" : plan + ": "; }
   template <class... Values>
   void unless(bool fine, fmt::format_string<Values...> text, Values&&... values) {
-    if (!fine) list_.push_back({file_, 0, 0, fmt::format(text, std::forward<Values>(values)...)});
+    if (fine) return;
+    list_.push_back({file_, 0, 0, before_ + fmt::format(text, std::forward<Values>(values)...)});
   }
   void throw_if_any() {
     if (!list_.empty()) throw InputError(std::move(list_));
   }
 
  private:
-  std::string file_;
+  std::string file_, before_;
   std::vector<Diagnostic> list_;
 };
 

@@ -51,11 +51,21 @@ double run_in(const ProbingPass& pass, const ProbingLimits& limits) {
   return std::max(least_turns / std::abs(pass.turns), limits.spin_up_s / pass.seconds);
 }
 
-void expect_drivable(const ProbingPlan& plan, const ProbingLimits& limits, ProbingControl control,
-                     const std::string& file) {
+void expect_drivable(std::span<const ProbingPlan> plans, const ProbingLimits& limits,
+                     ProbingControl control, const std::string& file) {
   RefusalList refusals(file);
-  expect_room(plan, limits, refusals);
-  about_the_probe(plan, limits, control, refusals);
+  for (const ProbingPlan& plan : plans) {
+    refusals.about(plan.log);
+    expect_room(plan, limits, refusals);
+    about_the_probe(plan, limits, control, refusals);
+  }
+  refusals.about("");
+  refusals.unless(control != ProbingControl::fanuc || plans.size() == 1,
+                  "DPRNT of a FANUC control writes one log: write a program for each reference, by "
+                  "the name of its stream");
+  refusals.unless(limits.kind == ProbeKind::touch || plans.size() == 1,
+                  "halsampler writes one file: with an analogue probe, write a program for each "
+                  "reference, by the name of its stream");
   refusals.unless(control == ProbingControl::fanuc || !limits.x_diameter,
                   "x = \"diameter\" is for FANUC: the programs of other controls measure radii");
   refusals.unless(control != ProbingControl::heidenhain || limits.work_offset.empty(),

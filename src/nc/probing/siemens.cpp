@@ -13,8 +13,7 @@ class Siemens final : public Dialect {
  public:
   using Dialect::Dialect;
 
-  void begin(const std::vector<std::string>& remarks,
-             const std::vector<std::string>& log) override {
+  void begin(const std::vector<std::string>& remarks) override {
     remark("schema: trueaxis.probing_program/1");
     for (const std::string& one : remarks) remark(one);
     remark("X is a radius; call the probe, its offset and the C axis before");
@@ -27,9 +26,13 @@ class Siemens final : public Dialect {
     line("SETAL(65000)");
     line("M30");
     line("ENDIF");
-    if (dry_run_) return;
-    for (const std::string& one : log) write(fmt::format("\"{}\"", one));
   }
+
+  void open_log(const std::string& name, const std::vector<std::string>& head) override {
+    log_ = name;
+    for (const std::string& one : head) write(fmt::format("\"{}\"", one));
+  }
+  void close_log() override { write(fmt::format("\"{}\"", log_end)); }
 
   void remark(const std::string& words) override { line("; " + words); }
   void rapid(char axis, double to_mm) override {
@@ -68,20 +71,19 @@ class Siemens final : public Dialect {
     line("ENDFOR");
   }
 
-  void end() override {
-    if (!dry_run_) write(fmt::format("\"{}\"", log_end));
-    line("M30");
-  }
+  void end() override { line("M30"); }
 
  private:
   /// WRITE appends: a log of an earlier run must be moved away, or import refuses the two.
   void write(const std::string& words) {
-    line(fmt::format("WRITE(ERR,\"{}_LOG\",{})", name_, words));
+    line(fmt::format("WRITE(ERR,\"{}_LOG\",{})", log_, words));
   }
   static std::string along(double first, double each) {
     if (each == 0.0) return number(first, 5);
     return fmt::format("{}+({})*K", number(first, 5), number(each, 9));
   }
+
+  std::string log_;
 };
 
 }  // namespace
