@@ -4,7 +4,7 @@ pybind11_add_module(trueaxis_python MODULE NO_EXTRAS python/src/command.cpp pyth
   python/src/module.cpp python/src/points.cpp python/src/stream.cpp)
 target_link_libraries(trueaxis_python PRIVATE trueaxis_cli nlohmann_json::nlohmann_json)
 trueaxis_link_core_first(trueaxis_python)
-set_target_properties(trueaxis_python PROPERTIES OUTPUT_NAME _core
+set_target_properties(trueaxis_python PROPERTIES OUTPUT_NAME _core UNITY_BUILD ${TRUEAXIS_UNITY} UNITY_BUILD_BATCH_SIZE 0
   LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/python/trueaxis")
 
 # The package of this build, for tests and for PYTHONPATH: its Python files are links into the source.

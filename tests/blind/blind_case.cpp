@@ -215,20 +215,20 @@ class Maker {
   double sigma_mm_ = 0.0;
 };
 
-constexpr const char* names[] = {"null",    "one",      "two",  "three",
-                                 "unknown", "absorbed", "gaps", "typical"};
+constexpr const char* kind_names[] = {"null",    "one",      "two",  "three",
+                                      "unknown", "absorbed", "gaps", "typical"};
 
 }  // namespace
 
-std::string to_string(Kind kind) { return names[static_cast<int>(kind)]; }
+std::string to_string(Kind kind) { return kind_names[static_cast<int>(kind)]; }
 
 std::vector<Kind> all_kinds() {
   return {Kind::null, Kind::one, Kind::two, Kind::three, Kind::unknown, Kind::absorbed, Kind::gaps};
 }
 
 Kind kind_from(std::string_view text) {
-  for (std::size_t i = 0; i < std::size(names); ++i) {
-    if (names[i] == text) return static_cast<Kind>(i);
+  for (std::size_t i = 0; i < std::size(kind_names); ++i) {
+    if (kind_names[i] == text) return static_cast<Kind>(i);
   }
   throw std::invalid_argument("no kind `" + std::string(text) + '`');
 }

@@ -21,7 +21,7 @@ constexpr double least_lambda = 60.0, most_lambda = 400.0;
 double between(Random& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
-double log_between(Random& random, double low, double high) {
+double log_uniform(Random& random, double low, double high) {
   return std::exp(between(random, std::log(low), std::log(high)));
 }
 
@@ -43,7 +43,7 @@ Scenario ideal_face(Random& random, bool back) {
     pass.speed_rpm = 151.0;
     scenario.plan.passes.push_back(pass);
   }
-  scenario.noise.sigma_mm = log_between(random, 0.5e-3, 2e-3);
+  scenario.noise.sigma_mm = log_uniform(random, 0.5e-3, 2e-3);
   return scenario;
 }
 
@@ -128,7 +128,7 @@ FaceCase draw_face(const FaceFamily* family, std::uint64_t seed) {
   parameters[family->size] = family->unit;
   clean.effects = {{family->id, parameters}};
   const double left = left2(ideal, virtual_lathe::simulate(clean).reading_mm);
-  out.lambda = log_between(random, least_lambda, most_lambda);
+  out.lambda = log_uniform(random, least_lambda, most_lambda);
   parameters[family->size] =
       family->unit * out.scenario.noise.sigma_mm * std::sqrt(out.lambda / left);
   out.scenario.effects = {{family->id, parameters}};
@@ -148,10 +148,10 @@ FaceCase draw_section(bool with_effect, std::uint64_t seed) {
   pass.start_mm = pass.end_mm = 20.0;
   pass.revolutions = 30.0, pass.readings_per_revolution = 36.7;
   scenario.plan.passes = {pass};
-  scenario.noise.sigma_mm = log_between(random, 0.5e-3, 2e-3);
+  scenario.noise.sigma_mm = log_uniform(random, 0.5e-3, 2e-3);
   if (!with_effect) return out;
   out.effect = random() % 2 == 0 ? "part.roundness" : "spindle.radial_synchronous";
-  out.lambda = log_between(random, least_lambda, most_lambda);
+  out.lambda = log_uniform(random, least_lambda, most_lambda);
   const double readings = 30.0 * 36.7;
   scenario.effects = {
       {out.effect,

@@ -70,13 +70,13 @@ Outcome judge_names(const BlindCase& blind_case, const Sealed& truth, const Answ
   return std::ranges::any_of(out.members, excluded) ? Outcome::too_wide : Outcome::correct;
 }
 
-constexpr const char* names[] = {
+constexpr const char* outcome_names[] = {
     "correct",     "too wide",           "wrong name",    "missed", "false alarm",
     "extra cause", "not called unknown", "not abstained", "crash"};
 
 }  // namespace
 
-std::string to_string(Outcome outcome) { return names[static_cast<int>(outcome)]; }
+std::string to_string(Outcome outcome) { return outcome_names[static_cast<int>(outcome)]; }
 
 std::vector<Outcome> all_outcomes() {
   std::vector<Outcome> list;

@@ -7,20 +7,20 @@
 #include <numbers>
 
 #include "support/dense.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::form_study {
 namespace {
 
 constexpr int angles = 360, places = 31;
-constexpr double turn = 2.0 * std::numbers::pi;
 
 /// Convolution with exp(−π (θ / (α λ_c))²), normalised over the grid.
 std::vector<double> filtered(const std::vector<double>& profile, double high_upr) {
-  const double width = std::sqrt(std::numbers::ln2 / std::numbers::pi) * turn / high_upr;
+  const double width = std::sqrt(std::numbers::ln2 / std::numbers::pi) * two_pi / high_upr;
   std::vector<double> weight(angles), out(angles, 0.0);
   double sum = 0.0;
   for (int k = 0; k < angles; ++k) {
-    const double off = std::remainder(turn * k / angles, turn) / width;
+    const double off = std::remainder(two_pi * k / angles, two_pi) / width;
     weight[static_cast<std::size_t>(k)] = std::exp(-std::numbers::pi * off * off);
     sum += weight[static_cast<std::size_t>(k)];
   }
@@ -111,10 +111,10 @@ TrueForm true_form(const Radius& radius, double length_mm, double high_upr) {
   for (int p = 0; p < places; ++p) {
     const double z = length_mm * p / (places - 1);
     std::vector<double> profile;
-    for (int i = 0; i < angles; ++i) profile.push_back(radius(turn * i / angles, z));
+    for (int i = 0; i < angles; ++i) profile.push_back(radius(two_pi * i / angles, z));
     profile = filtered(profile, high_upr);
     for (int i = 0; i < angles; ++i) {
-      const double c = std::cos(turn * i / angles), s = std::sin(turn * i / angles);
+      const double c = std::cos(two_pi * i / angles), s = std::sin(two_pi * i / angles);
       circle.row(i) << c, s;
       cylinder.row(p * angles + i) << c, s, c * (2.0 * z / length_mm - 1.0),
           s * (2.0 * z / length_mm - 1.0);

@@ -22,11 +22,13 @@ MatrixXd basis(const MatrixXd& a, double threshold) {
 }
 
 MatrixXd directions_above(const MatrixXd& a, double least) {
-  const Eigen::BDCSVD<MatrixXd> svd(a, Eigen::ComputeThinU);
+  const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeThinU);
   return svd.matrixU().leftCols((svd.singularValues().array() > least).count());
 }
 
-VectorXd singular_values(const MatrixXd& a) { return Eigen::BDCSVD<MatrixXd>(a).singularValues(); }
+VectorXd singular_values(const MatrixXd& a) {
+  return Eigen::JacobiSVD<MatrixXd>(a).singularValues();
+}
 MatrixXd cholesky(const MatrixXd& s) { return s.llt().matrixL(); }
 
 MatrixXd solve_lower(const MatrixXd& l, const MatrixXd& b) {
