@@ -33,19 +33,23 @@ inline std::vector<Call> interpreted(const std::filesystem::path& folder,
   EXPECT_EQ(done.exit_code, 0) << done.output;
   const std::regex move(
       R"(.*(STRAIGHT_[A-Z]+)\(([-\d.]+), [-\d.]+, ([-\d.]+), [-\d.]+, [-\d.]+, ([-\d.]+)\))");
+  const std::regex mode(R"x(.*SET_MOTION_CONTROL_MODE\((\w+)\))x");
   const std::regex rate(R"(.*SET_FEED_RATE\(([\d.]+)\))"), log(R"x(.* (LOG|LOGOPEN)\("(.*)"\))x");
   std::vector<Call> out;
   std::istringstream lines(done.output);
   std::smatch found;
   double feed = 0.0;
+  std::string path;
   for (std::string line; std::getline(lines, line);) {
     if (std::regex_match(line, found, rate)) feed = std::stod(found[1]);
+    if (std::regex_match(line, found, mode)) path = found[1];
     if (std::regex_match(line, found, move))
       out.push_back(
           {found[1], std::stod(found[2]), std::stod(found[3]), std::stod(found[4]), feed});
     else if (std::regex_match(line, found, log))
       out.push_back({found[1], 0.0, 0.0, 0.0, feed, found[2]});
   }
+  EXPECT_EQ(path, "CANON_EXACT_PATH");  // a corner that is rounded is not clear
   return out;
 }
 

@@ -20,7 +20,8 @@ class LinuxCnc final : public Dialect {
     remark("schema: trueaxis.probing_program/1");
     for (const std::string& text : remarks) remark(text);
     remark("X is a radius from the spindle axis; call the probe and its offset before");
-    line("G21 G18 G90 G94 G8 G40 G80 G64 " + limits_.offset());
+    // G61: G64 would round the corners of rapid moves, by more than their clearance.
+    line("G21 G18 G90 G94 G8 G40 G80 G61 " + limits_.offset());
     const std::string x = mm(limits_.clear_x_mm()), z = mm(limits_.clear_z_mm());
     line(fmt::format("o100 if [[#5420 LT {}] AND [#5422 LT {}]]", x, z));
     line(fmt::format("  (ABORT,the probe is not clear of the part: jog it beyond X {} or Z {})", x,
