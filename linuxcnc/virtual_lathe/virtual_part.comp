@@ -3,7 +3,8 @@ component virtual_part "a shaft in the chuck of a simulated lathe, probed and cu
 description """
 Stands in for part, probe, encoders and drives of a simulated lathe X Z C. The part is clamped off the
 spindle axis, tilted, and has three lobes. The probe meets it numerically: a point of its line is taken to
-the part's own axis by vectors, and moved until it is on the surface. What the tool leaves is kept as the
+the part's own axis by vectors, and moved until it is on the surface. A trigger also meets the bore about that
+axis, and the face across it. What the tool leaves is kept as the
 path on which it ran, a point per degree.
 
 .B probe
@@ -31,7 +32,8 @@ pin out float x_encoder;
 pin out float z_encoder;
 pin out float c_encoder;
 param rw float radius = 30 "mm";
-param rw float front = 0 "Z where the part ends, mm";
+param rw float front = 0 "where the part ends, mm along its axis from Z = 0";
+param rw float bore = 0 "radius of a bore, mm; 0: none";
 param rw float centre_x = 0 "where the axis of the part meets Z = 0, mm";
 param rw float centre_y = 0;
 param rw float slope_x = 0 "direction cosines of the axis";
@@ -113,8 +115,14 @@ FUNCTION(probe) {
     }
     met = side * (met + ball);
     if (state == 0) state = seed * 2654435761ULL + 1;
-    met += sigma * normal();
-    touches = trigger && slide_z < front + ball && side * (slide_x - met) <= 0.0;
+    double noise = sigma * normal();
+    met += noise;
+    /* the centre of the ball, along the axis and across it */
+    double wx = slide_x * cosine - centre_x, wy = slide_x * sine - centre_y;
+    double along = wx * l + wy * m + slide_z * n;
+    double across = sqrt(wx * wx + wy * wy + slide_z * slide_z - along * along);
+    touches = trigger && along < front + ball + noise && side * (slide_x - met) <= 0.0 &&
+              (bore == 0.0 || across > bore - ball + noise);
     deflection = met - slide_x;
 }
 

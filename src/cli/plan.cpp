@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -103,7 +105,9 @@ std::string write_program(const PlanArguments& options, const study::Recommendat
     return "\nNo program is written: no plan is recommended that the probe at hand can read\n";
   const std::string& place = options.results["--output"];
   nc::ProbingPlan plan = study::probing_plan(chosen->plan.scenario);
-  plan.what = chosen->what;
+  plan.what = fmt::format("{}: U of the {} is {:.3g} um by the bound, k = {:g}", chosen->what,
+                          plan.surface == nc::ProbedSurface::face ? "face" : "axis",
+                          chosen->plan.u_expanded_mm / mm_per_um, options.task.coverage_factor);
   const nc::ProbingProgram program = options.program.write({&plan, 1}, place);
   outputs.write(place, program.text);
   return "\nProgram of the plan " + chosen->what + "\n  " + ProbingOption::line(program, place);

@@ -27,6 +27,8 @@ nc::ProbingControl control_of(const std::string& word) {
 constexpr const char* nothing_to_write =
     "no measurement that control and probe can make alone tells more: there is no program to write";
 
+constexpr std::size_t longest_of_reference = 12;  // controls take names of 24 letters
+
 /// A control takes letters, digits, '_' and '-' in the name of a log.
 std::string log_name(const std::string& output) {
   if (output == "-") return "probe";
@@ -102,8 +104,8 @@ nc::ProbingProgram ProbingOption::write_each(
   for (std::size_t i = 0; i < references.size(); ++i) {
     auto [name, plans] = references[i];
     for (nc::ProbingPlan& plan : plans) {
-      plan.what = name + ": " + plan.what;
-      plan.log = std::to_string(i + 1) + "_" + log_name(name);
+      plan.what = "reference " + name + ": " + plan.what;
+      plan.log = std::to_string(i + 1) + "_" + log_name(name).substr(0, longest_of_reference);
     }
     if (std::optional<nc::ProbingPlan> plan = first_driven(plans)) {
       what += "  log " + log_name(output) + "_" + plan->log + ": " + plan->what + "\n";

@@ -45,7 +45,7 @@ class ProbingJob : public CommandTest {
     file("job.toml",
          "[[reference]]\nname = \"rim\"\nstream = \"rim.csv\"\nsurface = \"cylinder\"\n"
          "[[reference]]\nname = \"end face\"\nstream = \"face.csv\"\nsurface = \"plane\"\n"
-         "[[reference]]\nname = \"bore\"\nstream = \"bore.csv\"\nsurface = \"cylinder\"\n"
+         "[[reference]]\nname = \"bore (ø 30)\"\nstream = \"bore.csv\"\nsurface = \"cylinder\"\n"
          "feature = \"bore\"\n");
     file("limits.toml", limits());
   }
@@ -72,7 +72,7 @@ class ProbingJob : public CommandTest {
 TEST_F(ProbingJob, EveryReferenceIsMeasuredByOneProgram) {
   const CommandStreams done = advise();
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
-  EXPECT_TRUE(contains(done.out, "log p_2_end_face: end face: probe")) << done.out;
+  EXPECT_TRUE(contains(done.out, "log p_2_end_face: reference end face: probe")) << done.out;
   const std::vector<Call> calls = interpreted(folder_, "p.ngc");
   EXPECT_EQ(count(calls, "LOGOPEN"), 3u);
   const Disc part;
@@ -83,15 +83,16 @@ TEST_F(ProbingJob, EveryReferenceIsMeasuredByOneProgram) {
   EXPECT_NEAR(fitted(run, "p_1_rim.log", "cylinder", "radius"), 40.0, 1e-6);
   EXPECT_NEAR(fitted(run, "p_2_end_face.log", "plane", "d"), 0.0, 1e-6);
   EXPECT_NEAR(fitted(run, "p_2_end_face.log", "plane", "l"), -part.face.slope_x, 1e-6 / 15.0);
-  EXPECT_NEAR(fitted(run, "p_3_bore.log", "cylinder", "radius"), part.block.radius_mm, 1e-6);
-  EXPECT_NEAR(fitted(run, "p_3_bore.log", "cylinder", "x0"), part.block.x0_mm, 1e-6);
+  EXPECT_NEAR(fitted(run, "p_3_bore_____30_.log", "cylinder", "radius"), part.block.radius_mm,
+              1e-6);
+  EXPECT_NEAR(fitted(run, "p_3_bore_____30_.log", "cylinder", "x0"), part.block.x0_mm, 1e-6);
 }
 
 TEST_F(ProbingJob, AReferenceThatCannotBeDrivenIsNamed) {
   file("limits.toml", limits(30.0));
   const CommandStreams done = advise();
   EXPECT_EQ(done.exit_code, 3);
-  EXPECT_TRUE(contains(done.err, "3_bore: the bore has a radius of")) << done.err;
+  EXPECT_TRUE(contains(done.err, "3_bore_____30_: the bore has a radius of")) << done.err;
   EXPECT_FALSE(there("p.ngc"));
 }
 

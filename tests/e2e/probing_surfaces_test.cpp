@@ -102,6 +102,42 @@ TEST_F(ProbingSurfaces, AnUndercutIsNotProbed) {
       "the shank would be at a radius of 29.6 mm while the ball touches at Z");
 }
 
+// A gauge is at the wall through one block, of 20 revolutions and one before and after them.
+TEST_F(ProbingSurfaces, AGaugeScansABoreAndAFace) {
+  std::string gauge = limits_inside;
+  gauge.replace(gauge.find("\"touch\""), 7, "\"analogue\"");
+  gauge.replace(gauge.find("search_mm = 1.5"), 15, "rate_hz = 1000\nspin_up_s = 0.2");
+  file("limits.toml", gauge);
+  const std::string noise = "[noise]\nsigma_um = 1\n[[pass]]\nspeed_rpm = 120\n";
+  file("plan.toml", "[part]\nsurface = \"cylinder\"\nfeature = \"bore\"\nradius_mm = 30\n" + noise +
+                        "z_start_mm = -20\nz_end_mm = -40\nfeed_mm_per_rev = 1\n"
+                        "readings_per_revolution = 40.3\n");
+  const auto feeds = [&] {
+    std::vector<Call> out;
+    for (const Call& one : program())
+      if (one.name == "STRAIGHT_FEED") out.push_back(one);
+    std::filesystem::remove(folder_ / "p.ngc");
+    return out;
+  };
+  const std::vector<Call> bore = feeds();
+  ASSERT_EQ(bore.size(), 3u);  // into the bore, to the wall, along it
+  EXPECT_NEAR(bore[0].x, 25.7, 1e-4);
+  EXPECT_NEAR(bore[1].x, 29.0, 1e-4);
+  EXPECT_NEAR(bore[1].z, -19.0, 1e-4);
+  EXPECT_NEAR(bore[2].x, 29.0, 1e-4);
+  EXPECT_NEAR(bore[2].z, -41.0, 1e-4);
+  EXPECT_NEAR(bore[2].c - bore[1].c, 22.0 * 360.0, 1e-3);
+  file("plan.toml", "[part]\nsurface = \"face\"\nd_mm = 0\n" + noise +
+                        "x_start_mm = 10\nx_end_mm = 30\nfeed_mm_per_rev = 1\n"
+                        "readings_per_revolution = 40.3\n");
+  const std::vector<Call> face = feeds();
+  ASSERT_EQ(face.size(), 2u);
+  EXPECT_NEAR(face[0].z, 1.0, 1e-4);
+  EXPECT_NEAR(face[0].x, 9.0, 1e-4);
+  EXPECT_NEAR(face[1].z, 1.0, 1e-4);
+  EXPECT_NEAR(face[1].x, 31.0, 1e-4);
+}
+
 // Across the centre X is negative, and the point is on the other side of the part.
 TEST_F(ProbingSurfaces, AFaceIsTouchedAlongZAndFittedAsItIs) {
   const TiltedFace face;

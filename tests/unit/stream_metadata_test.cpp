@@ -45,6 +45,7 @@ TEST(StreamMetadata, WhatLooksLikeAKeyIsRefusedWithItsSpelling) {
       {"sigma = .002 mm", "sensor_noise: 2 um"},
       {"nominal diameter: 29 mm", "nominal_radius: 14.5 mm"},
       {"Spindle speed: 60 rpm", "spindle_rpm: 60"},
+      {"feature = bore", "feature: bore"},
       {"readings: relative", "reading: relative"},
       {"reading relative", "reading: relative"},
       {"set-up 12 z-shift 3 mm", "setup.2.z_shift: 12 mm"},

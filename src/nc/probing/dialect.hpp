@@ -85,6 +85,9 @@ std::unique_ptr<Dialect> siemens_dialect(const ProbingLimits& limits, const std:
 std::unique_ptr<Dialect> heidenhain_dialect(const ProbingLimits& limits, const std::string& name,
                                             bool dry_run);
 
+/// Words as any control takes them in a comment: ASCII, without the signs that end one.
+std::string plain_words(std::string words);
+
 /// A number of at most `decimals` digits after the point, without those that are 0.
 std::string short_number(double value, int decimals);
 

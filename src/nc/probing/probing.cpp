@@ -64,7 +64,7 @@ std::vector<std::string> head_of(std::span<const ProbingPlan> plans, const Probi
                                  bool dry_run, ProbingProgram& out) {
   std::vector<std::string> remarks, ways;
   for (const ProbingPlan& plan : plans) {
-    remarks.push_back(plan.what);
+    remarks.push_back(plain_words(plan.what));
     for (const ProbingPass& pass : plan.passes) {
       out.readings += pass.readings;
       out.minutes += seconds_of(pass, plan, limits) / 60.0;
@@ -104,6 +104,15 @@ std::string short_number(double value, int decimals) {
     if (text.ends_with('.')) text.pop_back();
   }
   return text;
+}
+
+std::string plain_words(std::string words) {
+  for (char& c : words) {
+    if (c == '(') c = '[';
+    if (c == ')') c = ']';
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return words;
 }
 
 int set_up_of(const ProbingPass& pass) { return pass.rear ? 2 : 1; }
@@ -195,7 +204,7 @@ ProbingProgram write_probing(std::span<const ProbingPlan> plans, const ProbingLi
   ProbingProgram out;
   words->begin(head_of(plans, limits, dry_run, out));
   for (const ProbingPlan& plan : plans) {
-    if (plans.size() > 1) words->remark(plan.what);
+    if (plans.size() > 1) words->remark(plain_words(plan.what));
     if (!dry_run)
       words->open_log(plan.log.empty() ? name : name + "_" + plan.log, log_head(plan, limits));
     drive(*words, plan, limits, dry_run);

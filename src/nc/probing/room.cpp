@@ -91,6 +91,11 @@ void about_a_pass_in_a_bore(const ProbingPlan& plan, std::size_t number,
   const Stretch z = stretch_of(pass, limits);
   const double ball = limits.ball_radius_mm, radius = *limits.bore_radius_mm;
   expect_along_z(number, pass, limits, refusals);
+  const bool ends_in_front = std::max(pass.start_mm, pass.end_mm) > limits.front_mm;
+  refusals.unless(ends_in_front || z.high_mm <= limits.front_mm,
+                  "the run-in of pass {} begins, or its run-out ends, at Z {:.4g} mm: outside the "
+                  "bore, which ends at front_mm = {:.4g}",
+                  number, z.high_mm, limits.front_mm);
   const double lowest = *limits.bore_bottom_mm + ball + limits.clearance_mm;
   refusals.unless(z.low_mm >= lowest,
                   "pass {} goes down to Z {:.4g} mm and the bore lets the ball down to {:.4g} mm "
