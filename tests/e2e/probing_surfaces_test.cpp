@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "support/command_fixture.hpp"
@@ -84,6 +85,30 @@ TEST_F(ProbingSurfaces, ABoreIsTouchedFromInsideAndFittedAsItIs) {
   const CommandStreams shaft = command("run shaft.toml -o result");
   EXPECT_EQ(shaft.exit_code, 3);
   EXPECT_TRUE(contains(shaft.err, "the stream states 'feature: bore'")) << shaft.err;
+}
+
+// The shank has room in a taper that opens to the front, if its mouth is stated.
+TEST_F(ProbingSurfaces, ATaperIsTouchedFromInside) {
+  BlockWithBore bore;
+  bore.taper = std::tan(3.0 * std::numbers::pi / 180.0);
+  std::string taper = bore_from_both_sides, narrow = limits_inside;
+  taper.replace(taper.find("cylinder\""), 9, "cone\"\nhalf_angle_deg = 3");
+  narrow.replace(narrow.find("29.7"), 4, "27.5");
+  file("plan.toml", taper);
+  file("limits.toml", narrow);
+  expect_input_error(
+      "study plan plan.toml --goal-um 5 --repeats 100 --control linuxcnc --limits limits.toml "
+      "-o narrow.ngc",
+      "the bore is free to 27.5 mm");
+  file("limits.toml", narrow.insert(narrow.find("[probe]"), "bore_mouth_radius_mm = 29.7\n"));
+  const Driven run = driven(program(), bore);
+  EXPECT_EQ(run.trouble, "");
+  EXPECT_GT(run.nearest_mm, 3.0);
+  file("p.log", run.logs.at("p.log"));
+  const CommandStreams fit = command("fit p.log --surface cone --json fit.json");
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  EXPECT_NEAR(fitted("half_angle"), 3.0, 180.0 / std::numbers::pi * 1e-6 / 15.0);  // deg
+  EXPECT_NEAR(-fitted("k") * bore.taper, bore.radius_mm, 1e-5);
 }
 
 // Inside a narrower mouth the shank would be what touches.

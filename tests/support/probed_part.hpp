@@ -48,11 +48,12 @@ inline InPart in_part(const BallAt& ball) {
   return {ball.x * std::cos(c), ball.x * std::sin(c), ball.z};
 }
 
-/// A bore along a line that is not the spindle's, in a block that ends at Z = 0, and the stylus
-/// that goes into it: the ball, the shank and the body from where the shank ends. The block is a
-/// disc of 40 mm; the mouth of the bore may be narrower than its inside.
+/// A bore, straight or a taper, along a line that is not the spindle's, in a block that ends at Z =
+/// 0, and the stylus that goes into it: the ball, the shank and the body from where the shank ends.
+/// The block is a disc of 40 mm; the mouth of the bore may be narrower than its inside.
 struct BlockWithBore {
   double radius_mm = 30.0, bottom_mm = -60.0, mouth_mm = 1e9;
+  double taper = 0.0;  ///< of the radius along the axis
   double x0_mm = 0.12, y0_mm = -0.07, slope_x = 0.002, slope_y = -0.001;
   double ball_mm = 1.0, shank_mm = 0.6, length_mm = 50.0;
 
@@ -66,7 +67,11 @@ struct BlockWithBore {
   double operator()(const BallAt& ball) const {
     if (ball.z >= ball_mm) return ball.z - ball_mm;
     if (std::abs(ball.x) >= 40.0) return std::abs(ball.x) - 40.0 - ball_mm;
-    const double wall = radius_mm - ball_mm - from_axis(ball);
+    const InPart p = in_part(ball);
+    const double along = (slope_x * (p.x - x0_mm) + slope_y * (p.y - y0_mm) + p.z) /
+                         std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y);
+    const double wall =
+        (radius_mm + taper * along - from_axis(ball)) / std::sqrt(1.0 + taper * taper) - ball_mm;
     const double mouth = mouth_mm - shank_mm - from_axis({ball.x, 0.0, ball.c_deg});
     return std::min({wall, mouth, ball.z - ball_mm - bottom_mm, ball.z + length_mm});
   }

@@ -51,6 +51,7 @@ struct ProbingLimits {
   double front_mm = 0.0;   ///< and none beyond this Z
   std::optional<double> bore_radius_mm;  ///< a bore is free to this distance from the axis
   std::optional<double> bore_bottom_mm;  ///< and down to this Z
+  std::optional<double> bore_mouth_mm;   ///< radius that is free in front of what is probed
   double clearance_mm = 0.0;             ///< that rapid moves keep
   ProbeKind kind = ProbeKind::touch;
   double ball_radius_mm = 0.0;

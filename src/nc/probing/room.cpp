@@ -112,12 +112,19 @@ void about_a_pass_in_a_bore(const ProbingPlan& plan, std::size_t number,
                   "the bore has a radius of {:.4g} mm at Z {:.4g} mm and bore_radius_mm is {:.4g}: "
                   "state the radius that is free everywhere",
                   plan.size_at(thin), thin, radius);
-  const double shank = plan.size_at(thick) - ball + *limits.stylus_radius_mm;
-  refusals.unless(shank <= radius,
+  // From the ball to the front the shank passes the probed surface, and then the mouth.
+  const auto room_of_shank = [&](double touched_z) {
+    return std::min({limits.bore_mouth_mm.value_or(radius), plan.size_at(touched_z),
+                     plan.size_at(z.high_mm)}) -
+           (plan.size_at(touched_z) - ball + *limits.stylus_radius_mm);
+  };
+  const double tight = room_of_shank(z.low_mm) < room_of_shank(z.high_mm) ? z.low_mm : z.high_mm;
+  const double shank = plan.size_at(tight) - ball + *limits.stylus_radius_mm;
+  refusals.unless(room_of_shank(tight) >= 0.0,
                   "the shank would be at a radius of {:.4g} mm while the ball touches at Z {:.4g} "
-                  "mm, and the bore is free to bore_radius_mm = {:.4g} only: use a thinner shank "
-                  "or a larger ball",
-                  shank, thick, radius);
+                  "mm, and from there to the front the bore is free to {:.4g} mm: use a thinner "
+                  "shank or a larger ball, or state bore_mouth_radius_mm in [part]",
+                  shank, tight, shank + room_of_shank(tight));
   const double farthest = plan.size_at(thick) - ball + limits.search_mm;
   refusals.unless(pass.rear ? -farthest >= limits.x_low_mm : farthest <= limits.x_high_mm,
                   "pass {} searches to X {:.4g} mm and X goes from {:.4g} to {:.4g} mm", number,
@@ -130,6 +137,10 @@ void about_a_bore(const ProbingPlan& plan, const ProbingLimits& limits, RefusalL
                   "in a bore the ball must be thicker than its shank: ball_radius_mm is {:.4g} and "
                   "stylus_radius_mm {:.4g}",
                   limits.ball_radius_mm, *limits.stylus_radius_mm);
+  refusals.unless(limits.bore_mouth_mm.value_or(*limits.bore_radius_mm) >= *limits.bore_radius_mm,
+                  "bore_mouth_radius_mm is less than bore_radius_mm = {:.4g}, which is free from "
+                  "the front to the bottom: correct one of them",
+                  *limits.bore_radius_mm);
   refusals.unless(limits.inside_x_mm() >= 0.0,
                   "a ball of {:.4g} mm with {:.4g} mm of clearance does not fit into a bore that "
                   "is free to bore_radius_mm = {:.4g}: use a smaller ball or clearance",

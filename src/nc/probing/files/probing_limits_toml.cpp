@@ -77,6 +77,7 @@ nc::ProbingLimits parse_probing_limits(std::string_view content, const std::stri
   limits.front_mm = part.required_number("front_mm");
   limits.bore_radius_mm = part.maybe_number("bore_radius_mm", Range::positive());
   limits.bore_bottom_mm = part.maybe_number("bore_bottom_mm");
+  limits.bore_mouth_mm = part.maybe_number("bore_mouth_radius_mm", Range::positive());
   read_probe(root.required_table("probe"), limits);
   if (auto control = root.maybe_table("control")) read_control(*control, limits);
   document.finish();

@@ -14,6 +14,7 @@ namespace trueaxis {
 ///
 ///     [limits]  x_mm = [-60, 120]  z_mm = [-150, 60]  speed_rpm
 ///     [part]    reach_mm  front_mm  bore_radius_mm  bore_bottom_mm
+///               bore_mouth_radius_mm
 ///     [probe]   kind = "touch" | "analogue"  ball_radius_mm  feed_mm_per_min  clearance_mm
 ///               search_mm  rate_hz  spin_up_s  stylus_radius_mm  stylus_length_mm
 ///     [control] work_offset = "G54"  x = "radius" | "diameter"  gcode_system = "A" | "B" | "C"
