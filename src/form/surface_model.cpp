@@ -23,7 +23,8 @@ constexpr int least_draws = 100;
 constexpr double orders_over_cutoff = 1.5;  // the filter lets 21 % of these through
 constexpr std::size_t readings_an_order = 5;
 constexpr int fewest_degrees = 2, most_degrees = 10;
-constexpr int more_stations = 3;  // than degrees
+constexpr int more_stations = 3;     // than degrees
+constexpr int between_stations = 8;  // places that are looked at
 constexpr double seen = 0.05, certain = 0.999;
 constexpr std::size_t angles_a_wave = 32, angles_of_doubtful = 3;  // an order more likely absent
 constexpr std::size_t fewest_angles = 96, most_angles = 720;
@@ -147,14 +148,36 @@ void SurfaceModel::make_grid() {
   std::iota(by_z.begin(), by_z.end(), std::size_t{0});
   std::ranges::stable_sort(by_z, {}, [&](std::size_t i) { return z_mm_[i]; });
   const int stations = terms_.degrees + more_stations;
-  for (int s = 0; s < stations; ++s)
-    add_station(middle_mm_ + half_mm_ * (2.0 * s / (stations - 1) - 1.0), by_z);
+  for (const double t : station_places(stations)) add_station(middle_mm_ + half_mm_ * t, by_z);
   for (Station& station : stations_) station.orders = orders_at(station);
   const double step = 2.0 * half_mm_ / (stations - 1);
   for (const double z : z_mm_) {
     const double at = std::floor((z - middle_mm_ + half_mm_) / step + 0.5);
     ++stations_[static_cast<std::size_t>(std::clamp(at, 0.0, stations - 1.0))].readings;
   }
+}
+
+/// Even steps over −1 … 1, but that the nearest to the largest lobes of the mean is there: the
+/// worst section else lies between two.
+std::vector<double> SurfaceModel::station_places(int count) const {
+  const auto even = [](int s, int steps) { return 2.0 * s / steps - 1.0; };
+  std::vector<double> out;
+  for (int s = 0; s < count; ++s) out.push_back(even(s, count - 1));
+  const auto lobes = [&](double t) {
+    const VectorXd f = along(terms_.degrees, t);
+    double squares = 0.0;
+    for (int n = 2; n <= terms_.orders; ++n)
+      squares += (band_[static_cast<std::size_t>(n)] * amplitudes(f, n, mean_)).squaredNorm();
+    return squares;
+  };
+  double largest = 0.0, there = 0.0;
+  for (int s = 0; s <= between_stations * (count - 1); ++s) {
+    const double t = even(s, between_stations * (count - 1)), size = lobes(t);
+    if (size > largest) largest = size, there = t;
+  }
+  if (largest > 0.0)
+    *std::ranges::min_element(out, {}, [&](double t) { return std::abs(t - there); }) = there;
+  return out;
 }
 
 /// The angles of the grid, without those in an interruption of the readings of some turns about it.
