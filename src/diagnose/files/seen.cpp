@@ -107,11 +107,16 @@ std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const 
 
 /// When: of a stream without a clock by the reading.
 std::string date_text(const Finding& slip) {
-  const double onset_s = slip.term.shape.onset_s;
+  const TermShape& shape = slip.term.shape;
+  const double end_s = shape.onset_s + shape.duration_s;
   const auto onset = std::ranges::find(slip.parameters, "onset", &FitParameter::name);
-  return onset != slip.parameters.end() && onset->estimate.unit == "reading"
-             ? fmt::format("at reading {:.0f}", onset_s + 1.0)
-             : fmt::format("{:.4g} s after the start", onset_s);
+  const bool by_reading = onset != slip.parameters.end() && onset->estimate.unit == "reading";
+  if (shape.duration_s > 0.0)
+    return by_reading
+               ? fmt::format("from reading {:.0f} to {:.0f}", shape.onset_s + 1.0, end_s + 1.0)
+               : fmt::format("from {:.4g} s to {:.4g} s after the start", shape.onset_s, end_s);
+  return by_reading ? fmt::format("at reading {:.0f}", shape.onset_s + 1.0)
+                    : fmt::format("{:.4g} s after the start", shape.onset_s);
 }
 
 }  // namespace
@@ -162,13 +167,15 @@ std::vector<std::string> cause_lines(const Diagnosis& diagnosis, const Finding& 
     if (effect && !effect->consequence.empty()) line += ": " + std::string(effect->consequence);
     lines.push_back(line + " [" + id + "]");
   };
-  add(finding.effect(), finding.probability);
-  for (const Rival& rival : finding.rivals) {
+  std::vector<std::pair<double, std::string>> causes{{finding.probability, finding.effect()}};
+  for (const Rival& rival : finding.rivals) causes.emplace_back(rival.probability, rival.effect);
+  std::ranges::stable_sort(causes, std::ranges::greater{}, &std::pair<double, std::string>::first);
+  for (const auto& [probability, id] : causes) {
     if (lines.size() == most) {
-      lines.push_back(fmt::format("or {} more, less likely", finding.rivals.size() + 1 - most));
+      lines.push_back(fmt::format("or {} more, less likely", causes.size() - most));
       break;
     }
-    add(rival.effect, rival.probability);
+    add(id, probability);
   }
   return lines;
 }

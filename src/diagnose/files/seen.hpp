@@ -20,8 +20,9 @@ std::string seen_text(const Finding& finding, double coverage_factor);
 /// The same of a pattern of no cause.
 std::string seen_text(const Unexplained& pattern, double coverage_factor);
 
-/// The causes of a class with their probability and what follows: one line each, "roundness of the
-/// part (0.44): nothing to do for the axis [part.roundness]"; at most `most`, then how many more.
+/// The causes of a class with their probability and what follows, the likeliest first: one line
+/// each, "roundness of the part (44 %): nothing to do for the axis [part.roundness]"; at most
+/// `most`, then how many more.
 std::vector<std::string> cause_lines(const Diagnosis& diagnosis, const Finding& finding,
                                      std::size_t most);
 
