@@ -49,7 +49,8 @@ struct TermShape {
   double period_mm = 1.0;          ///< wavelength, feed, pitch, period of the scale
   double frequency_hz = 50.0;
   double time_constant_s = 600.0;  ///< of thermal.drift; of probe.lag the T to linearise at
-  double onset_s = 0.0;            ///< instant of a slip
+  double onset_s = 0.0;            ///< instant of a slip, or its start
+  double duration_s = 0.0;         ///< of a slip; 0: it is a step
   double reference_x_mm = 0.0;     ///< X_ref of the sensor
   double range_mm = 1.0;           ///< that v of probe.nonlinearity is 1 at
   double play_mm = 0.0;            ///< of probe.hysteresis: the play to linearise at
@@ -106,8 +107,9 @@ struct PeriodicInTime {};
 /// t and 1 − exp(−t/τ), in X (Eq. 45).
 struct GrowthInTime {};
 
-/// At an instant the part moved, turned, tilted, and changed its radius and taper (Eq. 46); `seat`:
-/// moved along Z and tilted (Eq. 136). The surface is where it is afterwards.
+/// At an instant, or evenly over a duration, the part moved, turned, tilted, and changed its radius
+/// and taper (Eq. 46); `seat`: moved along Z and tilted (Eq. 136). The surface is where it is
+/// afterwards.
 struct PartStep {
   bool seat = false;
 };
@@ -172,8 +174,8 @@ void fill_columns(const EffectTerm& term, const TermContext& context, const Term
 /// The names of the shape parameters that a term reads.
 std::vector<std::string> shape_parameters(const EffectTerm& term);
 
-/// Whether the term is a step at an instant: no value of its shape predicts another, and the part
-/// is elsewhere afterwards.
+/// Whether the part is elsewhere after the term: a slip, at once or over its duration. No value of
+/// a step predicts another.
 bool is_step(const EffectTerm& term);
 
 /// Whether the term has two orders, the one twice the other: the lobes of jaws.

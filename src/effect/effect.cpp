@@ -63,6 +63,7 @@ double TermShape::*place_of(std::string_view name) {
       {"frequency_hz", &TermShape::frequency_hz},
       {"time_constant_s", &TermShape::time_constant_s},
       {"onset_s", &TermShape::onset_s},
+      {"duration_s", &TermShape::duration_s},
       {"reference_x_mm", &TermShape::reference_x_mm},
       {"range_mm", &TermShape::range_mm},
       {"play_mm", &TermShape::play_mm}};

@@ -106,8 +106,9 @@ std::vector<Effect> part_roundness() {
        .slot = Slot::part,
        .frame = EffectFrame::time,
        .term = PartStep{},
-       .formula = "from t0 on: axis point + (dx, dy), axis tilted by (tilt_x, tilt_y) about the "
-                  "middle of the probed length, theta - turn, X + dr + taper (Z - Z_mid)",
+       .formula = "from t0 on, evenly over a duration or at once: axis point + (dx, dy), axis "
+                  "tilted by (tilt_x, tilt_y) about the middle of the probed length, theta - turn, "
+                  "X + dr + taper (Z - Z_mid)",
        .parameters =
            {{"dx", "mm", 0.01, 0.2, "step along x of the spindle frame"},
             {"dy", "mm", 0.01, 0.2, "step along y"},
@@ -126,7 +127,9 @@ std::vector<Effect> part_roundness() {
              0.5},
             {"taper", "rad", 1e-5, 1e-3, "change of the taper as probed", {}, 0.0, -0.01, 0.01},
             {"onset", "s", 0, 0, "t0; the number of the reading where there are no times",
-             "onset_s"}},
+             "onset_s"},
+            {"duration", "s", 0, 0, "from t0 to where the part stays; readings without times",
+             "duration_s"}},
        .signature = "amplitude and phase of 1 undulation per revolution step at an instant",
        .consequence = "clamp more firmly and probe again",
        .confounders = {"part.bow"},

@@ -36,14 +36,21 @@ void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) 
   }
 }
 
+/// The share of a slip that the part has not moved by then, as what is missing of it (Eq. 46).
+double missing_of(const TermShape& shape, double time_s) {
+  const double since = time_s - shape.onset_s;
+  if (since >= shape.duration_s) return 0.0;
+  return since < 0.0 ? -1.0 : since / shape.duration_s - 1.0;
+}
+
 // A face whose axis tilts towards x falls there: Z = c − slope · (x, y).
 void fill_seat(const TermContext& at, const TermShape& shape, const contact::Chunk& sine,
                const contact::Chunk& cosine, Columns out) {
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const bool before = at.time_s[i] < shape.onset_s;
-    out[0][i] = before ? -1.0 : 0.0;
-    out[1][i] = before ? at.z_mm[i] * cosine[i] : 0.0;
-    out[2][i] = before ? at.z_mm[i] * sine[i] : 0.0;
+    const double missing = missing_of(shape, at.time_s[i]);
+    out[0][i] = missing;
+    out[1][i] = -missing * at.z_mm[i] * cosine[i];
+    out[2][i] = -missing * at.z_mm[i] * sine[i];
   }
 }
 
@@ -215,7 +222,8 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
 }
 
 Parameters parameters(const PartStep& term, const TermShape&) {
-  if (term.seat) return {{{"dz", "mm"}, {"tilt_x", "rad"}, {"tilt_y", "rad"}}, {"onset_s"}};
+  if (term.seat)
+    return {{{"dz", "mm"}, {"tilt_x", "rad"}, {"tilt_y", "rad"}}, {"onset_s", "duration_s"}};
   return {{{"dx", "mm"},
            {"dy", "mm"},
            {"turn", "rad"},
@@ -223,21 +231,21 @@ Parameters parameters(const PartStep& term, const TermShape&) {
            {"tilt_y", "rad"},
            {"dr", "mm"},
            {"taper", "rad"}},
-          {"onset_s"}};
+          {"onset_s", "duration_s"}};
 }
 
 // A part that moved along x and y of the spindle frame is met at X = f(Y − b, Z) + a with a, b the
 // motion along machine X and Y; one that slipped by `turn` in the sense of C, at C − turn. A tilt
 // about the middle of what was probed moves it by its lever there, and along Z by −X times the tilt
-// towards the probe. The surface is where the part is after it: before the step, all of that is
-// missing. Eq. 46.
+// towards the probe. The surface is where the part is after it: before it, all of that is missing,
+// and while it lasts, a share. Eq. 46.
 void fill(const PartStep& term, const TermContext& at, const TermShape& shape, Columns out) {
   Chunk sine, cosine, slope;
   contact::sin_cos(at, at.c_rad.data(), sine.data(), cosine.data());
   if (term.seat) return fill_seat(at, shape, sine, cosine, out);
   contact::dx_dy(at, slope.data());
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const double missing = at.time_s[i] < shape.onset_s ? -1.0 : 0.0;
+    const double missing = missing_of(shape, at.time_s[i]);
     const double along_x = cosine[i] + sine[i] * slope[i];
     const double along_y = sine[i] - cosine[i] * slope[i];
     const double lever = at.z_mm[i] - at.z_mid_mm, along_z = at.dx_dz[i] * at.x_mm[i];

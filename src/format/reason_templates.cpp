@@ -58,7 +58,8 @@ std::string_view template_of(ReasonCode code) {
       {fit_failed, "{name}: {message}; {turns}"},
       {part_slipped,
        "{ref}the part slipped in the chuck< at {onset_time::.1f} s>< at reading "
-       "{onset_reading::.0f}>< by {parts: and }><: {remedies}>"},
+       "{onset_reading::.0f}>< from {begin_time::.1f} s to {end_time::.1f} s>< from reading "
+       "{begin_reading::.0f} to {end_reading::.0f}>< by {parts: and }><: {remedies}>"},
       {part_may_have_slipped,
        "{ref}the part may have slipped in the chuck, which the data cannot tell from {effect} "
        "(probability of the slip {probability::.2g}): {remedies}"},

@@ -48,10 +48,18 @@ Reasons how_far(const Finding& finding, double k) {
 Reason slipped(std::size_t i, const Finding& finding, double k, ReasonCode code) {
   Reason reason{code, {i}, {}, {}, how_far(finding, k)};
   const Estimate onset = parameter_of(finding, "onset");
-  if (onset.determined() && onset.unit == "s")
-    reason.numbers.push_back({"onset_time", onset.value, "s"});
-  else if (onset.determined())
-    reason.numbers.push_back({"onset_reading", onset.value + 1.0});
+  if (!onset.determined()) return reason;
+  const auto add = [&](const char* by_time, const char* by_reading, double value) {
+    reason.numbers.push_back(onset.unit == "s" ? ReasonNumber{by_time, value, "s"}
+                                               : ReasonNumber{by_reading, value + 1.0});
+  };
+  const double duration_s = finding.term.shape.duration_s;
+  if (duration_s > 0.0) {
+    add("begin_time", "begin_reading", onset.value);
+    add("end_time", "end_reading", onset.value + duration_s);
+  } else {
+    add("onset_time", "onset_reading", onset.value);
+  }
   return reason;
 }
 
@@ -90,7 +98,9 @@ constinit const JobCheck part_slipped{
 
 bool is_sure_slip(const Diagnosis& diagnosis) {
   const Finding* slip = diagnosis.slip();
-  if (!slip || !slip->rivals.empty() || !diagnosis.unexplained.empty()) return false;
+  if (!slip || slip->term.shape.duration_s > 0.0 || !slip->rivals.empty() ||
+      !diagnosis.unexplained.empty())
+    return false;
   if (std::ranges::any_of(slip->parameters,
                           [](const FitParameter& p) { return !p.estimate.determined(); }))
     return false;

@@ -14,8 +14,9 @@ extern const JobCheck part_slipped;
 /// it is now.
 Reasons moved_part(const IdentifiedJob& job);
 
-/// One slip, its sizes shown by what was read after it, without rival causes, without a cause that
-/// may be another slip, and nothing unexplained.
+/// One slip at an instant, its sizes shown by what was read after it, without rival causes, without
+/// a cause that may be another slip, and nothing unexplained. Whether one that lasts has ended, no
+/// reading tells.
 bool is_sure_slip(const Diagnosis& diagnosis);
 
 }  // namespace trueaxis

@@ -48,6 +48,15 @@ struct PartStep {
   double dz_mm = 0.0, tilt_x_rad = 0.0, tilt_y_rad = 0.0;  ///< of its axis towards x, y
 };
 
+/// The share of a slip that is done at a time, less all of it where the part is described as it is
+/// after the slip.
+inline double slipped(double t_s, double from_s, double duration_s, double ends) {
+  const double done = t_s < from_s                ? 0.0
+                      : t_s < from_s + duration_s ? (t_s - from_s) / duration_s
+                                                  : 1.0;
+  return ends > 0.5 ? done - 1.0 : done;
+}
+
 struct ProbeLine {
   double height_mm = 0.0;  ///< Y
   double tilt_rad = 0.0;   ///< in X-Z, from X towards Z

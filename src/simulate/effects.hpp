@@ -36,7 +36,7 @@ using Enters = void (*)(const Values&, Chain&);
 
 struct EffectEntry {
   std::string_view id, what;
-  LatheParameter parameters[10];  ///< those after the last have no name
+  LatheParameter parameters[11];  ///< those after the last have no name
   Enters enter;
 };
 

@@ -45,16 +45,21 @@ constexpr EffectEntry face_table[] = {
        return a * std::cos(two_pi / feed * p.s_mm + p.theta_rad + phase);
      })},
     {"part.seat_slip",
-     "step of the part along Z and of its tilt at a time",
-     {{"time_s", {}}, {"dz_mm", 0.0}, {"tilt_x_rad", 0.0}, {"tilt_y_rad", 0.0}, {"ends", 0.0}},
-     in<&Chain::step>(
-         [](double t, double when, double dz, double tilt_x, double tilt_y, double ends) {
-           PartStep step;
-           const double share = t < when ? (ends > 0.5 ? -1.0 : 0.0) : (ends > 0.5 ? 0.0 : 1.0);
-           step.dz_mm = share * dz;
-           step.tilt_x_rad = share * tilt_x, step.tilt_y_rad = share * tilt_y;
-           return step;
-         })},
+     "step of the part along Z and of its tilt at a time, or evenly over a duration from then",
+     {{"time_s", {}},
+      {"dz_mm", 0.0},
+      {"tilt_x_rad", 0.0},
+      {"tilt_y_rad", 0.0},
+      {"ends", 0.0},
+      {"duration_s", 0.0}},
+     in<&Chain::step>([](double t, double when, double dz, double tilt_x, double tilt_y,
+                         double ends, double duration) {
+       PartStep step;
+       const double share = slipped(t, when, duration, ends);
+       step.dz_mm = share * dz;
+       step.tilt_x_rad = share * tilt_x, step.tilt_y_rad = share * tilt_y;
+       return step;
+     })},
     // Z' = Z + …: the part comes towards −Z by that much.
     {"spindle.axial_fundamental",
      "Z' = Z + a cos(C - phase)",

@@ -68,8 +68,8 @@ constexpr EffectEntry part_table[] = {
        return Vec3{away * std::cos(direction), away * std::sin(direction), 0.0};
      })},
     {"part.slip",
-     "step of the part in the chuck at a time, tilt about Z = middle; 'ends' 1: the part is "
-     "described as it is after the step",
+     "step of the part in the chuck at a time, or evenly over a duration from then, tilt about Z = "
+     "middle; 'ends' 1: the part is described as it is afterwards",
      {{"time_s", {}},
       {"dx_mm", 0.0},
       {"dy_mm", 0.0},
@@ -79,11 +79,13 @@ constexpr EffectEntry part_table[] = {
       {"dr_mm", 0.0},
       {"taper_rad", 0.0},
       {"middle_mm", 0.0},
-      {"ends", 0.0}},
+      {"ends", 0.0},
+      {"duration_s", 0.0}},
      [](const Values& of, Chain& chain) {
        in<&Chain::step>([](double t, double when, double dx, double dy, double turn, double tilt_x,
-                           double tilt_y, double, double, double middle, double ends) {
-         const double share = t < when ? (ends > 0.5 ? -1.0 : 0.0) : (ends > 0.5 ? 0.0 : 1.0);
+                           double tilt_y, double, double, double middle, double ends,
+                           double duration) {
+         const double share = slipped(t, when, duration, ends);
          return PartStep{share * (dx - middle * tilt_x),
                          share * (dy - middle * tilt_y),
                          share * turn,
@@ -92,9 +94,9 @@ constexpr EffectEntry part_table[] = {
                          share * tilt_y};
        })(of, chain);
        in<&Chain::machine>([](TrueState& state, double when, double, double, double, double, double,
-                              double dr, double taper, double middle, double ends) {
-         const bool before = state.at.t_s < when;
-         const double share = before ? (ends > 0.5 ? -1.0 : 0.0) : (ends > 0.5 ? 0.0 : 1.0);
+                              double dr, double taper, double middle, double ends,
+                              double duration) {
+         const double share = slipped(state.at.t_s, when, duration, ends);
          state.part_x_mm += share * (dr + taper * (state.at.position_mm - middle));
        })(of, chain);
      }},

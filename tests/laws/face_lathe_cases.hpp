@@ -65,6 +65,14 @@ inline std::vector<LatheCase> face_lathe_cases(double middle_mm, double half_mm)
        },
        {.onset_s = 12.345},
        {1.0, 0.02, -0.01}},
+      {"part.seat_slip",
+       1e-3,
+       [](double a) {
+         return Parameters{{"time_s", 8.5},          {"duration_s", 6.25},      {"dz_mm", a},
+                           {"tilt_x_rad", 0.02 * a}, {"tilt_y_rad", -0.01 * a}, {"ends", 1}};
+       },
+       {.onset_s = 8.5, .duration_s = 6.25},
+       {1.0, 0.02, -0.01}},
       {"spindle.axial_fundamental",
        1e-3,
        [](double a) {

@@ -87,6 +87,14 @@ inline std::vector<LatheCase> lateral_lathe_cases() {
       {"part.slip",
        1e-3,
        [](double a) {
+         return Parameters{{"time_s", 8.5},     {"duration_s", 6.25}, {"dx_mm", a},
+                           {"dy_mm", -0.5 * a}, {"dr_mm", 0.25 * a},  {"ends", 1}};
+       },
+       {.onset_s = 8.5, .duration_s = 6.25},
+       {1.0, -0.5, 0.0, 0.0, 0.0, 0.25, 0.0}},
+      {"part.slip",
+       1e-3,
+       [](double a) {
          return Parameters{{"time_s", 12.345}, {"turn_rad", a}, {"ends", 1}};
        },
        {.onset_s = 12.345},

@@ -81,6 +81,31 @@ TEST(Verdict, ASlipWithoutAClockIsNamedByTheReading) {
   }
 }
 
+// What creeps may creep on: the table waits. The axis is that at the end, with its u.
+TEST(Verdict, ASlipThatLastsIsNamedByItsTimesAndRefused) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    Scenario s = cylinder(seed);
+    s.effects.push_back(
+        {"part.slip", {{"dx_mm", 0.03}, {"dy_mm", -0.01}, {"time_s", 15.0}, {"duration_s", 6.0}}});
+    const JobResult result = decided(s);
+    EXPECT_EQ(result.verdict.decision, Decision::no_go) << verdict_line(result);
+    EXPECT_NE(verdict_line(result).find("the part slipped in the chuck from "), std::string::npos)
+        << verdict_line(result);
+    ASSERT_NE(result.diagnoses[0]->slip(), nullptr);
+    const Finding& slip = *result.diagnoses[0]->slip();
+    // 4 u: a probability of 6e-5 in each of the 16.
+    const Estimate onset = slip.parameter("onset"), duration = slip.parameter("duration");
+    EXPECT_NEAR(onset.value, 15.0, 4.0 * onset.u) << seed;
+    EXPECT_NEAR(duration.value, 6.0, 4.0 * duration.u) << seed;
+    EXPECT_LT(duration.u, 0.5);
+    const AxisEstimate& axis = result.diagnoses[0]->extended.axis;
+    const double n = std::sqrt(1.0 - s.part.l * s.part.l - s.part.m * s.part.m);
+    const auto at = axis.axis.at(40.0);
+    EXPECT_NEAR(at[0], s.part.x0_mm + 0.03 + s.part.l / n * 40.0, 4.0 * axis.u_at(40.0)) << seed;
+    EXPECT_NEAR(at[1], s.part.y0_mm - 0.01 + s.part.m / n * 40.0, 4.0 * axis.u_at(40.0)) << seed;
+  }
+}
+
 // Where the part was before, and the step.
 TEST(Verdict, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
   for (const std::uint64_t seed : {4, 5, 6, 7}) {

@@ -163,7 +163,17 @@ void add_slips(Group group, Draw& draw, Drawn& out) {
     constexpr int steps = 40;
     const double size = draw.log_between(0.02, 0.1), at = draw.phase();
     const double from = draw.between(0.05, 0.75);
-    for (int i = 0; i < steps; ++i) add(size / steps, at, 0.0, from + 0.2 * (i + 0.5) / steps);
+    const auto law = draw.whole(0, 3);
+    double before = 0.0;
+    for (int i = 1; i <= steps; ++i) {
+      const double u = static_cast<double>(i) / steps;
+      const double done = law == 0   ? u
+                          : law == 1 ? u * u * (3.0 - 2.0 * u)
+                          : law == 2 ? std::expm1(-4.0 * u) / std::expm1(-4.0)
+                                     : std::floor(4.0 * u) / 4.0;
+      if (done > before) add(size * (done - before), at, 0.0, from + 0.2 * (u - 0.5 / steps));
+      before = done;
+    }
     return;
   }
   const double size = draw.between(0.01, 0.05), at = draw.phase();

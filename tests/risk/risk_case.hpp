@@ -23,7 +23,8 @@ enum class Group {
   slip,             ///< the part slips by 10 to 50 µm
   slip_without_t,
   two_slips,
-  creeping_slip,  ///< by 20 to 100 µm over a fifth of the stream
+  creeping_slip,  ///< by 20 to 100 µm over a fifth of the stream: evenly, in an S, settling, by
+                  ///< jerks
   slip_beside_drift,
   slip_at_an_end,  ///< in the first or last 3 % of the stream
   slip_with_turn,

@@ -79,14 +79,19 @@ double off_in_u(const FitResult& fit, const LongDelay& part) {
 }
 
 // 0.05 s turn the part by 0.47 rad between the two speeds, a chord of 37 σ over 340 readings each.
-TEST(LongDelay, LeavesTheAxisUnknown) {
+TEST(LongDelay, LeavesTheAxisUnknownOrIsNamed) {
   std::uint64_t seed = 1;
   for (const double second_rpm : {150.0, 100.0})
     for (const double delay_s : {0.05, 0.12, 0.25, -0.25, 0.45, 0.8, 1.0})
       for (const bool timed : {true, false}) {
-        const ProbeStream stream =
-            long_stream({.delay_s = delay_s, .second_rpm = second_rpm}, ++seed, timed);
+        const LongDelay part{.delay_s = delay_s, .second_rpm = second_rpm};
+        const ProbeStream stream = long_stream(part, ++seed, timed);
         const Diagnosis found = diagnosed_long(stream);
+        // The shortest of them may be named, as any delay that is short: then the axis is known.
+        if (timed && delay_s == 0.05 && !found.slip()) {
+          EXPECT_LT(off_in_u(found.extended, part), 4.5) << "seed " << seed;
+          continue;
+        }
         EXPECT_TRUE(why_axis_unknown(stream, found)) << delay_s << " s, seed " << seed;
         EXPECT_TRUE(found.late_s) << delay_s << " s, seed " << seed;
         if (!found.late_s) continue;

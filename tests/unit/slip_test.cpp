@@ -60,6 +60,19 @@ TEST(Slip, TwoOrOneWithRivalsAreNotSure) {
   EXPECT_NE(objection(found({step})), "");
 }
 
+TEST(Slip, OneThatLastsIsNotSure) {
+  Finding slow = slipped(
+      {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});
+  slow.term.shape.duration_s = 6.5;
+  EXPECT_EQ(objection(found({slow})),
+            "seat: the part slipped in the chuck from 12.0 s to 18.5 s by 20.0 ± 3.9 µm: clamp it "
+            "again and probe again");
+  EXPECT_EQ(moved(found({slow})), "");
+  slow.parameters.back() = example::parameter("onset", 400.0, 0.5, "reading");
+  slow.term.shape.duration_s = 50.0;
+  EXPECT_NE(objection(found({slow})).find("from reading 401 to 451 by"), std::string::npos);
+}
+
 TEST(Slip, AStepIsGivenAsItsLength) {
   // 3-4-5: u of the length is that along its direction, √(0.6² 3² + 0.8² 1²) = 1.97 µm.
   const Finding step = slipped(

@@ -15,19 +15,21 @@ namespace {
 
 constexpr double highest_alias = 60.0;  // no cause makes so many undulations
 
-/// Neighbours in the one continuous shape parameter, `step` either way; empty: there is none, or it
+/// Neighbours in each continuous shape parameter, a pair of either way; empty: there is none, or it
 /// is a step that has no derivative.
 std::vector<Hypothesis> either_side(const Hypothesis& h, const LinearisationPoint& point) {
   if (is_line(h)) {
     const double f = frequency_of(h), df = 1e-3 * f;
     return {at_frequency(h, f - df), at_frequency(h, f + df)};
   }
-  if (!h.effect || is_step(h.effect->term)) return {};
+  if (!h.effect || (is_step(h.effect->term) && h.shape.duration_s == 0.0)) return {};
   return neighbours(h, point, 0.01);
 }
 
-double scanned_value(const Hypothesis& h) {
+/// What differs within a pair; a slip that lasts has a second one.
+double scanned_value(const Hypothesis& h, std::size_t pair) {
   if (is_line(h)) return frequency_of(h);
+  if (pair > 0) return h.shape.duration_s;
   const auto& refined = h.effect->refinement;
   return refined ? h.shape.*refined->parameter : h.shape.time_constant_s;
 }
@@ -99,14 +101,16 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
     variance[v] = g.dot(covariance * g);
   }
   const std::vector<Hypothesis> sides = either_side(h, problem.point);
-  if (sides.size() == 2) {
-    std::vector<Hypothesis> terms = model.terms;
-    const auto at_side = [&](const Hypothesis& side) {
-      terms[term] = side;
-      return Joint(problem, model.phi, terms, terms.size());
-    };
-    const Joint low = at_side(sides[0]), high = at_side(sides[1]);
-    const double x0 = scanned_value(h), x1 = scanned_value(sides[0]), x2 = scanned_value(sides[1]);
+  std::vector<Hypothesis> terms = model.terms;
+  const auto at_side = [&](const Hypothesis& side) {
+    terms[term] = side;
+    return Joint(problem, model.phi, terms, terms.size());
+  };
+  for (std::size_t pair = 0; 2 * pair + 1 < sides.size(); ++pair) {
+    const Hypothesis &before = sides[2 * pair], &after = sides[2 * pair + 1];
+    const Joint low = at_side(before), high = at_side(after);
+    const double x0 = scanned_value(h, pair), x1 = scanned_value(before, pair),
+                 x2 = scanned_value(after, pair);
     const double d1 = x1 - x0, d2 = x2 - x0;
     // RSS = RSS₀ + ½ c (x − x₀)² near the minimum: u² = 2 σ²/c.
     const double curvature = d1 != 0.0 && d2 != 0.0 && d1 != d2
@@ -117,8 +121,8 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
                                  : 0.0;
     if (curvature > 0.0) {
       const double u = joint.sigma_mm * std::sqrt(2.0 / curvature);
-      const auto below = values_of(fitted(sides[0], low.of(term))),
-                 above = values_of(fitted(sides[1], high.of(term)));
+      const auto below = values_of(fitted(before, low.of(term))),
+                 above = values_of(fitted(after, high.of(term)));
       for (std::size_t v = 0; v < values.size(); ++v) {
         const double g = difference(above[v], below[v]) / (x2 - x1);
         variance[v] += g * g * u * u;
@@ -127,16 +131,17 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
   }
   std::vector<FitParameter> out;
   const bool determined = is_determined(joint, term);
+  const double interval = (problem.point.time.back() - problem.point.time.front()) /
+                          static_cast<double>(problem.point.size());
   for (std::size_t v = 0; v < values.size(); ++v) {
     FitParameter p{values[v].name, {values[v].value, std::sqrt(variance[v]), values[v].unit, ""}};
-    if (!determined && p.name != "onset")
+    if (is_step(h.effect->term) && p.estimate.unit == "s") {  // a date or a duration
+      if (p.name == "duration" && p.estimate.value == 0.0) continue;
+      if (!problem.point.has_time) p.estimate.unit = "reading";
+      p.estimate.u = std::hypot(p.estimate.u, interval / std::sqrt(12.0));
+    } else if (!determined) {
       p.estimate = {.unit = p.estimate.unit,
                     .why_not = "the readings after it do not show all that moved"};
-    if (p.name == "onset") {
-      if (!problem.point.has_time) p.estimate.unit = "reading";
-      p.estimate.u = 1.0 / std::sqrt(12.0) *
-                     (problem.point.time.back() - problem.point.time.front()) /
-                     static_cast<double>(problem.point.size());
     }
     out.push_back(std::move(p));
   }

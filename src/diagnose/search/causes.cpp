@@ -12,7 +12,8 @@ namespace {
 using When = SearchRange::When;
 
 constexpr double no_motion = 1e-9;
-constexpr int rounding_harmonics = 3;  // the next is 1/4 of the first, and σ takes it away
+constexpr double duration_range = 6.0;  // ln: a first step of 0.06 is half way to the next length
+constexpr int rounding_harmonics = 3;   // the next is 1/4 of the first, and σ takes it away
 
 bool both_ways(const LinearisationPoint& point) {
   const Extent v = range_of(point.velocity);  // of the passes
@@ -236,6 +237,9 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
   const Refinement& r = *h.effect->refinement;
   if (r.reader && std::ranges::find(h.free, *r.reader) == h.free.end()) return list;
   const Extent time = range_of(point.time), dates = dates_of_steps(point);
+  const auto within = [&](double onset_s, double duration_s) {
+    return std::clamp(onset_s, dates.low, std::max(dates.low, dates.high - duration_s));
+  };
   vary([&](Hypothesis& o, double d) {
     double& value = o.shape.*r.parameter;
     switch (r.by) {
@@ -246,7 +250,7 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
         value = std::clamp(value + r.range * d, r.low, r.high);
         break;
       case Refinement::By::duration:
-        value = std::clamp(value + d * time.length(), dates.low, dates.high);
+        value = within(value + d * time.length(), o.shape.duration_s);
         break;
       case Refinement::By::lever: {
         // The envelope 1 + u κ, κ = half length / (middle − bearing).
@@ -255,6 +259,14 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
       }
     }
   });
+  if (h.shape.duration_s > 0.0)  // about its middle
+    vary([&](Hypothesis& o, double d) {
+      double& lasts = o.shape.duration_s;
+      const double middle = o.shape.onset_s + 0.5 * lasts;
+      lasts = std::clamp(lasts * std::exp(duration_range * d),
+                         time.length() / static_cast<double>(point.size()), dates.length());
+      o.shape.onset_s = within(middle - 0.5 * lasts, lasts);
+    });
   return list;
 }
 

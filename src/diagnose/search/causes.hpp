@@ -35,8 +35,9 @@ Extent dates_of_steps(const LinearisationPoint& point);
 constexpr double least_swing_mm = 0.02;  ///< sensed: below it no period of the scale is seen
 constexpr double least_tangent = 1e-3;   ///< of the half angle: below it a cone is a cylinder
 
-/// Neighbours of a hypothesis in its continuous shape (by the effect's Refinement; for a bump, its
-/// window), `step` apart on a scale where 1 is the range; lines are refined elsewhere.
+/// Neighbours of a hypothesis in its continuous shape (by the effect's Refinement, of a slip that
+/// lasts then by its duration; for a bump, its window), in pairs `step` to either side on a scale
+/// where 1 is the range; lines are refined elsewhere.
 std::vector<Hypothesis> neighbours(const Hypothesis& hypothesis, const LinearisationPoint& point,
                                    double step);
 

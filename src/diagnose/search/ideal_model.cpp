@@ -2,10 +2,14 @@
 #include "diagnose/search/ideal_model.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "base/threads.hpp"
+#include "diagnose/geometry/condense.hpp"
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/search/dictionary.hpp"
+#include "diagnose/search/scan_steps.hpp"
 #include "math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -34,6 +38,41 @@ double rounding_that_shows(double step_mm, std::span<const double> deviation_mm)
   return step_mm > 0.0 && step_mm > mad_sigma(deviation_mm) ? step_mm : 0.0;
 }
 
+/// Masks the readings that do not count. A large step leaves those about it far from any smooth
+/// form. If one of the steps dated in all readings takes back more than half of them, it joins what
+/// readings may deviate by.
+std::vector<Rejected> exclude(const Problem& problem, ObservationMask& mask) {
+  const LinearisationPoint& point = problem.point;
+  std::vector<Hypothesis> basis = small_fourier_legendre_basis(point, problem.resolution);
+  const auto with = [&](std::span<const Hypothesis> list, ObservationMask& to) {
+    return mask_outliers(point, list, problem.deviation_mm, to, problem.threads);
+  };
+  ObservationMask all = mask;
+  std::vector<Rejected> out = with(basis, mask);
+  if (out.empty() || is_condensed(point)) return out;
+  double tests = 0.0;
+  const Problem unmasked{point,
+                         all,
+                         problem.resolution,
+                         problem.deviation_mm,
+                         problem.false_alarm,
+                         problem.threads,
+                         problem.most_terms,
+                         problem.effects};
+  std::optional<std::pair<std::vector<Rejected>, ObservationMask>> best;
+  for (const Hypothesis& step : scan_steps(unmasked, {}, basis, tests)) {
+    ObservationMask own = all;
+    basis.push_back(step);
+    std::vector<Rejected> left = with(basis, own);
+    basis.pop_back();
+    const std::size_t fewest = best ? best->first.size() : (out.size() + 1) / 2;
+    if (left.size() < fewest) best.emplace(std::move(left), std::move(own));
+  }
+  if (!best) return out;
+  mask = std::move(best->second);
+  return std::move(best->first);
+}
+
 }  // namespace
 
 IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& options,
@@ -47,8 +86,6 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
       mask(make_observation_mask(point)),
       resolution(resolution_of(point, mask)),
       deviation_mm(deviation_from(measured, point, threads_of(options, measured))),
-      masked(mask_outliers(point, small_fourier_legendre_basis(point, resolution), deviation_mm,
-                           mask, threads_of(options, measured))),
       problem{point,
               mask,
               resolution,
@@ -57,6 +94,7 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
               threads_of(options, measured),
               static_cast<std::size_t>(options.max_findings),
               causes_of(point.base, resolution, options.own_effects),
-              rounding_that_shows(indicated.step, deviation_mm)} {}
+              rounding_that_shows(indicated.step, deviation_mm)},
+      masked(exclude(problem, mask)) {}
 
 }  // namespace trueaxis::diagnose_detail

@@ -28,8 +28,8 @@ class IdealModel {
   ObservationMask mask;
   const Resolution resolution;
   const std::vector<double> deviation_mm;  ///< readings minus the surface
-  const std::vector<Rejected> masked;      ///< readings that do not count, and why
   const Problem problem;
+  const std::vector<Rejected> masked;  ///< readings that do not count, and why
 };
 
 }  // namespace trueaxis::diagnose_detail

@@ -176,9 +176,11 @@ std::vector<Candidate> refined(Judge& judge, std::vector<Candidate> best,
   const bool of_means =
       judge.problem().means != nullptr;  // so many readings tell a form from lobes
   double shrink = 1.0;
-  // Between all readings a step has its date from the scan, which knows outliers from a step.
+  // Between all readings a step has its date from the scan, which knows outliers from a step; one
+  // that lasts is looked for about it.
   const auto dated = [&](const Hypothesis& h) {
-    return !of_means && first_step == step_start && h.effect && is_step(h.effect->term);
+    return !of_means && first_step == step_start && h.effect && is_step(h.effect->term) &&
+           h.shape.duration_s == 0.0;
   };
   for (int round = 0; round < rounds; ++round) {
     std::vector<Hypothesis> tried;
@@ -344,6 +346,7 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) co
   const auto refine_some = [&](const std::vector<Hypothesis>& list, std::vector<Candidate>& to) {
     Judge judge = beside_terms;
     std::vector<Candidate> best = judged_at_once(judge, list);
+    erase_other_durations(best);
     best.resize(std::min(best.size(), best_refined));
     to = refined(judge, std::move(best));
     for (Candidate& c : to) c.log_p = log_p_of(c);

@@ -27,6 +27,7 @@ constexpr double seen = 24.0;  // σ² of the sum of squares: less is not a step
 constexpr std::size_t per_column = least_beside_step / 2;  // readings next to a step of two sizes
 constexpr std::size_t few = 16;  // readings per column: with so few on a side two are ignored
 constexpr double kept = 0.25;    // share of the gain that is there without them: of eight (6/8)²
+constexpr double lasting[] = {1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0};  // of all time
 constexpr double as_likely = 12.0;  // σ² of the sum of squares: dates among which sizes decide
 
 /// Whether a row is one of the noise model's: it and those that predict it are there.
@@ -181,6 +182,22 @@ const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
   return best;
 }
 
+/// The same as what lasts some time, about its date. In less than a turn each angle is met once:
+/// what lasts no longer may be a form.
+void add_lasting(const Hypothesis& step, const Problem& problem, std::vector<Hypothesis>& list) {
+  const LinearisationPoint& point = problem.point;
+  const double all_s = point.time.back() - point.time.front();
+  for (const double share : lasting) {
+    if (share * problem.resolution.turns < 1.0) continue;
+    Hypothesis slow = step;
+    slow.shape.duration_s = share * all_s;
+    slow.shape.onset_s = std::clamp(step.shape.onset_s - 0.5 * slow.shape.duration_s,
+                                    point.time.front(), point.time.back() - slow.shape.duration_s);
+    slow.tests *= std::size(lasting);
+    list.push_back(std::move(slow));
+  }
+}
+
 /// Dates one effect.
 std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>& phi,
                               const std::vector<Hypothesis>& terms, const Effect& effect) {
@@ -206,7 +223,8 @@ std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>&
                     std::max(1.0, static_cast<double>(rows.white.rows() - taken.cols())));
     if (date == nullptr) continue;
     h.shape.onset_s = 0.5 * (time[date->reading - 1] + time[date->reading]);
-    out.push_back(std::move(h));
+    out.push_back(h);
+    add_lasting(h, problem, out);
   }
   return out;
 }
@@ -219,10 +237,24 @@ std::vector<Hypothesis> scan_steps(const Problem& problem, const std::vector<dou
   tests = 0.0;
   for (const Effect* effect : problem.effects) {
     if (!is_step(effect->term)) continue;
-    tests += effect->search.tests * static_cast<double>(effect->search.forms.size());
+    // Twice as long, half as many dates: those that last are as many again.
+    tests += 2.0 * effect->search.tests * static_cast<double>(effect->search.forms.size());
     for (Hypothesis& h : dated(problem, phi, terms, *effect)) out.push_back(std::move(h));
   }
   return out;
+}
+
+void erase_other_durations(std::vector<Candidate>& list) {
+  const auto lasts = [](const Candidate& c) { return c.hypothesis.shape.duration_s > 0.0; };
+  std::vector<Candidate> kept;
+  for (Candidate& c : list) {
+    const auto other = [&](const Candidate& k) {
+      return lasts(k) && k.hypothesis.effect == c.hypothesis.effect &&
+             k.hypothesis.free == c.hypothesis.free;
+    };
+    if (!lasts(c) || std::ranges::none_of(kept, other)) kept.push_back(std::move(c));
+  }
+  list = std::move(kept);
 }
 
 }  // namespace trueaxis::diagnose_detail
