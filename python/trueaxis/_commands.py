@@ -83,7 +83,7 @@ def run_job(job: Document, output: Path | None = None, *, force: bool = False, p
         return _run(words, "job", progress, folder / "result.json", folder, verdict=True, scratch=output is None)
 
 
-_PART = ("surface", "radius_mm", "half_angle_deg", "length_mm", "feed_mm", "per_revolution", "speed_rpm", "sigma_um")
+_PART = ("surface", "bore", "radius_mm", "half_angle_deg", "length_mm", "feed_mm", "per_revolution", "speed_rpm", "sigma_um")
 
 
 @with_checked_arguments
@@ -95,10 +95,10 @@ def plan(scenario: Document | None = None, *, goal_um: float, free: Mapping[str,
     Parameters
     ----------
     scenario : path or Mapping, optional
-        Part and passes. Without it they are given as ``surface``, ``radius_mm``, ``half_angle_deg``,
+        Part and passes. Without it they are given as ``surface``, ``bore``, ``radius_mm``, ``half_angle_deg``,
         ``length_mm``, ``feed_mm``, ``per_revolution``, ``speed_rpm``, ``sigma_um``.
     goal_um : float
-        Largest U of the axis over the length, µm.
+        Largest U of the axis over the length, or of the height of a face, µm.
     free : Mapping of str to (low, high), optional
         What may be chosen: "readings_per_revolution", "sigma_um", "feed_mm_per_rev", "length_mm".
     time_s, rate_hz : float, optional

@@ -57,7 +57,8 @@ def of_plan(result: Result) -> Figure | None:
             axes.plot([UM * end for end in confirmed], [i, i], color=OTHER, lw=3, alpha=0.5)
     axes.axvline(UM * result.goal.value, color="black", lw=0.8, label="goal")
     axes.plot([], [], color=OTHER, lw=3, alpha=0.5, label="simulated, 95 % interval")
-    axes.set(title="U of the axis over the length", xlabel="µm", ylim=(len(plans) - 0.5, -0.5))
+    title = "U of the axis over the length" if result.of == "axis" else "U of the height of the face"
+    axes.set(title=title, xlabel="µm", ylim=(len(plans) - 0.5, -0.5))
     axes.set_yticks(range(len(plans)), [name for name, _, _ in plans], fontsize=8)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=3, fontsize=7, frameon=False)
     return sheet

@@ -18,11 +18,11 @@ inline void expect_feature(const ProbeStream& stream, bool bore) {
   if (!bore && states_bore(stream))
     throw InputError(stream.source,
                      "the stream states 'feature: bore': add --bore (in a job: feature = "
-                     "\"bore\")");
+                     "\"bore\", in Python: bore=True)");
   if (bore && states_feature(stream, "shaft"))
     throw InputError(stream.source,
                      "the stream states 'feature: shaft': leave out --bore (in a job: feature = "
-                     "\"shaft\")");
+                     "\"shaft\", in Python: bore=False)");
 }
 
 }  // namespace trueaxis

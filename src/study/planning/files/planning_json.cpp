@@ -65,6 +65,7 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
             {"status", !answer.reached    ? "not_reached"
                        : answer.confirmed ? "reached"
                                           : "not_confirmed"},
+            {"of", task.base.part.kind == virtual_lathe::PartKind::face ? "face" : "axis"},
             {"goal", with_unit(task.goal_mm, "mm")},
             {"coverage_factor", task.coverage_factor},
             {"seed", task.seed},
