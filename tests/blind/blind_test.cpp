@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diagnosis against sealed truths, some hundred cases. Each bound is binomial: it fails where
-// the goal of blind_study.md would give so few right ones with a probability below 1e-4
+// the goal of blind_study.md would give so few right ones with a probability below 1e-3
 // (goals.hpp).
 #include <gtest/gtest.h>
 
@@ -17,16 +17,16 @@ namespace {
 
 constexpr std::uint64_t seed = 20260704;
 
-/// Cases of a test; a case takes up to half a second of one core, all tests about two minutes of
-/// two.
+/// Cases of a test: a share of right ones 15 points below the goal fails with 91 % if it is of one
+/// effect, with 46 % if it is of two. The study has more (scripts/blind_study).
 struct KindShare {
   Kind kind;
   std::size_t cases;
 };
 
-constexpr KindShare shares[] = {{Kind::null, 120}, {Kind::one, 96},     {Kind::two, 48},
-                                {Kind::three, 40}, {Kind::unknown, 40}, {Kind::absorbed, 48},
-                                {Kind::gaps, 24}};
+constexpr KindShare shares[] = {{Kind::null, 72},  {Kind::one, 64},     {Kind::two, 32},
+                                {Kind::three, 28}, {Kind::unknown, 28}, {Kind::absorbed, 32},
+                                {Kind::gaps, 16}};
 
 StudyOptions options_of(const std::string& folder) {
   StudyOptions options;
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Blind, ::testing::ValuesIn(shares),
 /// With sizes as the catalogue expects them, a cause that is stated to be true with p > 1/2 is that
 /// in p of all: their sum against its own binomial spread, at the level of the other goals.
 TEST(BlindProbabilities, AreThoseOfTheTruth) {
-  constexpr std::size_t cases = 240;
+  constexpr std::size_t cases = 160;
   Selection selection;
   selection.kinds = {Kind::typical};
   selection.cases = cases;
@@ -93,7 +93,7 @@ TEST(BlindProbabilities, AreThoseOfTheTruth) {
 }
 
 TEST(BlindDetection, PowerIsTheNoncentralF) {
-  constexpr std::size_t cases = 30;
+  constexpr std::size_t cases = 20;
   std::cout << "seed " << seed << '\n';
   StudyOptions options = options_of("detection");
   options.progress = nullptr;
@@ -111,7 +111,7 @@ TEST(BlindAdvice, TheRecommendedMeasurementResolves) {
   Selection selection;
   selection.kinds = {Kind::one, Kind::absorbed};
   selection.plans = {PlanId::p1, PlanId::p2, PlanId::p3};
-  selection.cases = 48;
+  selection.cases = 32;
   selection.seed = seed + 1;
   std::cout << "seed " << selection.seed << '\n';
   StudyOptions options = options_of("advice");

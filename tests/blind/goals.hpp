@@ -21,8 +21,9 @@ inline constexpr double demanded_distance = 3.29;
 /// cannot exclude; beyond Φ(d/2) = 0.9995 no data leave that open.
 inline constexpr double allowed_distance = 6.6;
 
-/// A test fails where so few right ones have less than this probability at the goal.
-inline constexpr double test_level = 1e-4;
+/// A test fails if so few right ones have less than this probability at the goal. Seeds are fixed:
+/// it is met anew only where a change moves the results.
+inline constexpr double test_level = 1e-3;
 
 /// The least count of `cases` that a test accepts.
 std::size_t least_right(std::size_t cases, double goal_share);

@@ -13,7 +13,7 @@
 namespace trueaxis::calibrate_detail {
 namespace {
 
-constexpr int last_order = 4;
+constexpr int last_cyclic_order = 4;
 
 /// 95 % of the sizes of component errors lie within this factor of their median (Eq. 210).
 double factor_of_sizes() {
@@ -61,7 +61,7 @@ void add_polynomials(AxisName axis, const AxisRange& range, const ErrorName& err
 }
 
 void add_harmonics(AxisName axis, const ErrorName& error, std::vector<MachineEffect>& out) {
-  for (int order = 1; order <= last_order; ++order) {
+  for (int order = 1; order <= last_cyclic_order; ++order) {
     MachineEffect one =
         component(error, axis, "harmonic", order, std::to_string(order) + " times per revolution");
     std::get<ErrorOfPosition>(one.term).functions = harmonic(order);

@@ -26,7 +26,7 @@ constexpr double moved_in_all = 0.9;    // how often a part that moved did so in
 constexpr double told = 1e-3;           // probability below which a model is not listed
 constexpr double nothing = 1e-2;        // of u: a smaller shift does not count
 constexpr std::size_t most_forms = 48;  // shapes of a local form that are averaged over
-constexpr double finer[] = {0.06, 0.02, 0.007};  // steps about the one that was found
+constexpr double finer_steps[] = {0.06, 0.02, 0.007};  // steps about the one that was found
 
 /// The residual that no cause explains, mm.
 double unexplained_rms(const Joint& joint) {
@@ -106,7 +106,7 @@ class Averaging {
       std::vector<Hypothesis> others = joint.terms;
       others.erase(others.begin() + static_cast<long>(t));
       LocalShapes& local = out.emplace_back(LocalShapes{t, {joint.terms[t]}});
-      for (const double step : finer)
+      for (const double step : finer_steps)
         for (Hypothesis& near : neighbours(joint.terms[t], problem.point, step)) {
           keep_local(problem, near);
           local.shapes.push_back(std::move(near));

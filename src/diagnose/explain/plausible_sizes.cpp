@@ -13,10 +13,10 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 // The crudest measured tube has ten times the largest ovality of the catalogue.
-constexpr double beyond = 20.0;
+constexpr double beyond_usual = 20.0;
 
 /// The largest typical amplitude, mm; 0: its size is not a length.
-double largest_mm(const Effect& effect) {
+double largest_usual_mm(const Effect& effect) {
   double largest = 0.0;
   for (const LinearParameter& one : linear_parameters(effect.term, {})) {
     const EffectParameter* size = size_for(effect, one);
@@ -31,7 +31,7 @@ double largest_of_class_mm(const Diagnosis& diagnosis, const Finding& finding) {
   double largest = 0.0;
   for (const std::string& id : finding.members()) {
     const Effect* effect = diagnosis.entry(id);
-    const double own = effect && !is_step(effect->term) ? largest_mm(*effect) : 0.0;
+    const double own = effect && !is_step(effect->term) ? largest_usual_mm(*effect) : 0.0;
     if (!(own > 0.0)) return 0.0;
     largest = std::max(largest, own);
   }
@@ -44,7 +44,7 @@ std::string implausible_size(const Diagnosis& diagnosis) {
   for (const Finding& finding : diagnosis.findings) {
     const double amplitude_mm = std::numbers::sqrt2 * finding.rms_mm;
     const double most_mm = largest_of_class_mm(diagnosis, finding);
-    if (!(most_mm > 0.0) || amplitude_mm <= beyond * most_mm) continue;
+    if (!(most_mm > 0.0) || amplitude_mm <= beyond_usual * most_mm) continue;
     return fmt::format(
         "the readings contain a regular pattern of {:.3g} µm. Only {} ({}) could cause it, which "
         "is at most {:.3g} µm: X_M is probably not the reading of a probe on this part. Check the "

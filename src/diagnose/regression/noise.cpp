@@ -19,7 +19,7 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr double far_out = 8.0;  // MAD σ; a real local form peaks at 4.5 σ
 constexpr double clings = 3.0;   // next to a reading far out
-constexpr std::size_t chunk = 512;
+constexpr std::size_t noise_chunk = 512;
 constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matters
 constexpr std::size_t least_rows = 200;
 constexpr double least_freedom = 20.0;  // readings beyond the columns: u(φ) is 0.2 of white noise
@@ -71,13 +71,13 @@ std::vector<double> remainder(const LinearisationPoint& point, std::span<const d
                               int threads) {
   std::vector<double> out(point.size());
   const auto work = [&](std::size_t k) {
-    const std::size_t begin = k * chunk, end = std::min(begin + chunk, point.size());
+    const std::size_t begin = k * noise_chunk, end = std::min(begin + noise_chunk, point.size());
     const Matrix columns = columns_of_rows(point, deviation_mm, terms, begin, end);
     const Eigen::VectorXd left = columns.col(0) - columns.rightCols(columns.cols() - 1) * solution;
     std::copy(left.data(), left.data() + left.size(), out.begin() + static_cast<long>(begin));
   };
   const bool small = point.size() < 20'000;  // a thread costs more than it saves
-  for_each_index((point.size() + chunk - 1) / chunk, small ? 1 : threads, work);
+  for_each_index((point.size() + noise_chunk - 1) / noise_chunk, small ? 1 : threads, work);
   return out;
 }
 

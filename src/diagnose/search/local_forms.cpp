@@ -18,8 +18,8 @@ constexpr double widest_rad = two_pi / 12.0;            // a sixth of a turn: be
 constexpr double least_width = 0.3;                     // of the steps
 constexpr double left_over = 1e-6;                      // share of a column that must be left
 constexpr double smallest_mm = 1e-3, largest_mm = 0.2;  // of dents, flats, burrs
-constexpr double odds_against = 4.0;  // before the data: one part in five, as of any effect
-constexpr double shape_step = 0.005;  // of neighbours() for the bend of the likelihood
+constexpr double odds_against = 4.0;      // before the data: one part in five, as of any effect
+constexpr double neighbour_step = 0.005;  // of neighbours() for the bend of the likelihood
 
 struct Spacing {
   double rad, mm;  ///< from angle to angle, and from section to section
@@ -47,7 +47,7 @@ double shape_choice(const Problem& problem, const std::vector<double>& phi,
   const Hypothesis& form = terms[term];
   const Pattern& p = form.pattern;
   std::vector<Hypothesis> list = terms;
-  const std::vector<Hypothesis> near = neighbours(form, problem.point, shape_step);
+  const std::vector<Hypothesis> near = neighbours(form, problem.point, neighbour_step);
   list.insert(list.end(), near.begin(), near.end());
   NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, phi, 1);
   const std::vector<Columns> places = equations.append(list);
@@ -58,7 +58,7 @@ double shape_choice(const Problem& problem, const std::vector<double>& phi,
     return freedom * std::log(std::max(rest.rss - score(rest, places[k]).gain, 1e-12 * rest.rss));
   };
   const Spacing step = spacing_of(problem);
-  const double length = 2.0 * problem.point.z_half_mm, by = 8.0 * shape_step;
+  const double length = 2.0 * problem.point.z_half_mm, by = 8.0 * neighbour_step;
   // In the order of neighbours(): what the step is, and what the parameter may be before the data.
   const double steps[] = {by * p.width_rad, by, by * p.length_mm, by};
   const double ranges[] = {

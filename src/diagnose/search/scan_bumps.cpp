@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/geometry/contacts.hpp"
 #include "diagnose/search/scan.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -14,7 +15,6 @@ namespace {
 /// Share of a window that its readings go over: at a standing spindle they see one place, and what
 /// is off there is no form.
 constexpr double least_seen = 0.25;
-constexpr Extent nowhere{1e300, -1e300};
 
 void widen(Extent& extent, double to) {
   extent.low = std::min(extent.low, to), extent.high = std::max(extent.high, to);

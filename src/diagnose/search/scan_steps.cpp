@@ -23,7 +23,8 @@ using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_columns, 1>;
 
 constexpr double absorbed = 1e-6;  // share of a column's square below which base and terms hold it
 constexpr double undetermined = 1e-11;
-constexpr double seen = 24.0;  // σ² of the sum of squares: less is not a step among so many tests
+constexpr double seen_step =
+    24.0;  // σ² of the sum of squares: less is not a step among so many tests
 constexpr std::size_t per_column = least_beside_step / 2;  // readings next to a step of two sizes
 constexpr std::size_t few = 16;  // readings per column: with so few on a side two are ignored
 constexpr double kept = 0.25;    // share of the gain that is there without them: of eight (6/8)²
@@ -162,13 +163,13 @@ const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
     const bool of_few = side < fewest;
     // In correlated noise one large innovation looks like a step, and dies out.
     const bool passes = gain_of(form, date, date.settled_gram, date.settled_right) <
-                        std::min(gain, seen * std::max(rss - gain, 0.0) / freedom);
+                        std::min(gain, seen_step * std::max(rss - gain, 0.0) / freedom);
     gains.push_back(of_outliers || of_few || passes ? 0.0 : gain);
   }
   const auto top = std::ranges::max_element(gains);
   if (top == gains.end() || !(*top > 0.0)) return nullptr;
   const double variance = std::max(rss - *top, 0.0) / freedom;
-  if (*top < seen * variance) return &dates[static_cast<std::size_t>(top - gains.begin())];
+  if (*top < seen_step * variance) return &dates[static_cast<std::size_t>(top - gains.begin())];
   const double near = *top - as_likely * variance;
   const Date* best = nullptr;
   double least = 1e300;

@@ -17,7 +17,7 @@ namespace {
 using namespace virtual_lathe;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// d of(scenario) / d parameters, one column each: (4 D(h/2) − D(h)) / 3 of central differences D.
 template <class Of>
@@ -185,8 +185,8 @@ Bound bound_of(const Scenario& scenario, SurfaceKind surface) {
   const std::vector<Quantity> all = quantities(surface);
   const std::size_t count = all.size();
   Bound bound;
-  bound.sd.assign(count, none);
-  bound.covariance.assign(count * count, none);
+  bound.sd.assign(count, not_a_number);
+  bound.covariance.assign(count * count, not_a_number);
   const auto without = [&](Bound::Missing why) {
     bound.missing = why;
     return bound;
@@ -222,8 +222,8 @@ Bound bound_of(const Scenario& scenario, SurfaceKind surface) {
   for (std::size_t i = 0; i < count; ++i) {
     const bool by_nominal = all[i].name.starts_with("radius") || all[i].name == "k";
     if (!scenario.probe.relative_zero_mm || !by_nominal) continue;
-    covariance.row(static_cast<Eigen::Index>(i)).setConstant(none);
-    covariance.col(static_cast<Eigen::Index>(i)).setConstant(none);
+    covariance.row(static_cast<Eigen::Index>(i)).setConstant(not_a_number);
+    covariance.col(static_cast<Eigen::Index>(i)).setConstant(not_a_number);
   }
   std::copy_n(covariance.data(), count * count, bound.covariance.begin());
   for (std::size_t i = 0; i < count; ++i) bound.sd[i] = std::sqrt(bound.covariance[i * count + i]);

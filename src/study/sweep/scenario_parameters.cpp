@@ -14,16 +14,16 @@ namespace {
 
 using namespace virtual_lathe;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 struct Limits {
-  double low = -infinity, high = infinity;
+  double low = -no_limit, high = no_limit;
   bool open = false;
 };
-constexpr Limits any{}, positive{0.0, infinity, true}, not_negative{0.0, infinity, false},
+constexpr Limits any{}, positive{0.0, no_limit, true}, not_negative{0.0, no_limit, false},
     fraction{0.0, 1.0, false}, cosine{-1.0, 1.0, true};
 // As a scenario's file has them.
-constexpr Limits set_up_cosine{-0.7, 0.7, true}, with_a_variance{2.0, infinity, true};
+constexpr Limits set_up_cosine{-0.7, 0.7, true}, with_a_variance{2.0, no_limit, true};
 
 /// A number in its place; a travel is written through its pass.
 struct Place {

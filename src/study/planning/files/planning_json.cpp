@@ -51,7 +51,7 @@ Json alone_json(const Alone& one) {
           {"plan", plan_json(one.plan)}};
 }
 
-Json row_json(const TableRow& row) {
+Json table_row_json(const TableRow& row) {
   return {{"reached", row.reached}, {"plan", plan_json(row.plan)}};
 }
 
@@ -77,7 +77,7 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
   json["nearest"] = plan_json(answer.nearest);
   json["alone"] = list_of(answer.alone, alone_json);
   json["solved_for"] = info_of(answer.solved_for).name;
-  json["table"] = list_of(answer.table, row_json);
+  json["table"] = list_of(answer.table, table_row_json);
   json["recommended"] = list_of(answer.recommended, recommendation_json);
   json["not_confirmed"] = list_of(answer.not_confirmed, recommendation_json);
   json["remarks"] = answer.remarks;

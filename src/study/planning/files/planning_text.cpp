@@ -36,7 +36,7 @@ std::string value_text(const PlannedMeasurement& plan, Choice choice) {
   return digits(3, value) + (choice == Choice::feed ? " mm/rev" : " mm");
 }
 
-const char* const head =
+const char* const table_head =
     "length    feed         per rev  sigma     readings  time      readings/s  U [µm]\n";
 
 std::string row_text(const PlannedMeasurement& plan) {
@@ -104,7 +104,7 @@ std::string not_reached_text(const PlanningTask& task, const PlanningAnswer& ans
   if (beyond.empty() && std::isfinite(plan.u_expanded_mm))
     text += ", " + digits(3, plan.u_expanded_mm / task.goal_mm) + " times the goal";
   if (task.variables.empty()) text += "; choose what may vary with --free";
-  return text + "\n  " + head + "  " + row_text(plan) + beyond + '\n';
+  return text + "\n  " + table_head + "  " + row_text(plan) + beyond + '\n';
 }
 
 /// What would do, by the least wasteful of the simulated fits: a bound, or readings.
@@ -139,7 +139,7 @@ std::string not_confirmed_text(const PlanningTask& task, const PlanningAnswer& a
 std::string plans_text(const PlanningTask& task, const std::vector<Recommendation>& list,
                        const std::string& headline) {
   if (list.empty()) return "";
-  std::string text = format("\n{} (seed {})\n  {}", headline, task.seed, head);
+  std::string text = format("\n{} (seed {})\n  {}", headline, task.seed, table_head);
   for (const Recommendation& one : list) {
     text += "  " + row_text(one.plan) + "  " + one.what + '\n';
     text += confirmed_text(one.confirmed, task.goal_mm);
@@ -153,10 +153,11 @@ std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer
   const bool face = task.base.part.kind == virtual_lathe::PartKind::face;
   std::string text =
       format("U({}) ≤ {} µm, k = {:g}\n\nThe plan as it is\n  {}  {}\n", face ? "face" : "axis",
-             um(task.goal_mm), task.coverage_factor, head, row_text(answer.as_given));
+             um(task.goal_mm), task.coverage_factor, table_head, row_text(answer.as_given));
   if (!answer.alone.empty()) text += alone_text(task, answer);
   if (!answer.table.empty()) {
-    text += format("\nOver the ranges, {} as needed\n  {}", info_of(answer.solved_for).words, head);
+    text += format("\nOver the ranges, {} as needed\n  {}", info_of(answer.solved_for).words,
+                   table_head);
     for (const TableRow& row : answer.table)
       text += "  " + row_text(row.plan) + (row.reached ? "" : "  misses the goal") +
               beyond_text(task, row.plan) + '\n';
