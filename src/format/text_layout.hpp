@@ -36,7 +36,7 @@ std::string probability(double value);
 inline std::string percent_of(double probability) {
   if (probability < 0.001) return "< 0.1 %";
   if (probability > 0.999 && probability < 1.0) return "> 99.9 %";
-  return fmt::format("{:.2g} %", 100.0 * probability);
+  return fmt::format("{:.{}g} %", 100.0 * probability, probability > 0.99 ? 3 : 2);
 }
 
 }  // namespace trueaxis::layout

@@ -10,6 +10,7 @@
 #include "base/diagnostics.hpp"
 #include "base/number.hpp"
 #include "base/text.hpp"
+#include "format/text_layout.hpp"
 
 namespace trueaxis {
 namespace {
@@ -76,6 +77,13 @@ TEST(TextKit, AnglesAreHeldWithoutWholeTurns) {
       EXPECT_NEAR(within_turn(rad + turns * two_pi), rad, near);
       EXPECT_NEAR(apart_rad(rad + turns * two_pi, rad - 0.125), 0.125, near);
     }
+}
+
+TEST(TextKit, APercentageNeverRoundsToCertainty) {
+  EXPECT_EQ(layout::percent_of(0.9964), "99.6 %");
+  EXPECT_EQ(layout::percent_of(0.9996), "> 99.9 %");
+  EXPECT_EQ(layout::percent_of(0.514), "51 %");
+  EXPECT_EQ(layout::percent_of(0.0004), "< 0.1 %");
 }
 
 TEST(TextKit, WhatIsWrongWithSeveralIsThrownTogetherUnderTheNameOfItsFile) {
