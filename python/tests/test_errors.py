@@ -238,6 +238,31 @@ def test_an_argument_that_is_not_there_is_named(readings):
         ta.plan(goal_um=1.0, free={"length_mm": 10})
 
 
+@pytest.mark.parametrize("named, said", [({"c_unit": "rad"}, r"c_unit: not for a file.*C\[rad\].*columns="),
+                                         ({"surface": "cylinder"}, r"surface: there is no such argument.*help\(\)")])
+def test_an_argument_that_does_not_go_with_a_file_has_its_remedy(named, said):
+    with pytest.raises(ta.InputError, match=said):
+        ta.form("data/streams/shaft_cone_seat.csv", **named)
+
+
+@pytest.mark.parametrize("named, said", [({"c_unit": "rad"}, "c_unit: a stream has its units.*leave"),
+                                         ({"surface": "cylinder"}, r"surface: there is no such argument.*help\(\)")])
+def test_an_argument_that_does_not_go_with_a_stream_has_its_remedy(named, said):
+    x, c, z = cylinder()
+    with pytest.raises(ta.InputError, match=said):
+        ta.form(ta.stream(x, c, z, **UNITS), **named)
+
+
+def test_a_file_without_units_is_read_in_those_stated_of_its_names(tmp_path):
+    x, c, z = cylinder()
+    x = x + np.random.default_rng(2).normal(0.0, 1e-3, len(x))
+    path = tmp_path / "export.csv"
+    np.savetxt(path, np.stack([2 * x, c, z], axis=1), delimiter=",", header="Dia,Angle,Pos", comments="", fmt="%.9f")
+    fit = ta.fit(path, surface="cylinder", x="diameter", columns="X=Dia,C=Angle[rad],Z=Pos")
+    # Nine decimals: x0 moves by less than the largest rounding, of C by 0.05 mm × 5e-10.
+    assert fit.x0.value == pytest.approx(ta.fit(x, c, z, surface="cylinder", **UNITS).x0.value, abs=1e-8)
+
+
 def test_a_refusal_says_why():
     """The part slips by 40 µm in the middle of the readings."""
     x, c, z = cylinder(800)

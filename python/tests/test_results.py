@@ -150,12 +150,28 @@ def test_points_are_associated():
     assert "RONt" in circle.to_json()
 
 
+def test_values_of_a_form_have_their_names():
+    """Three lobes of 2 µm: 4 µm from peak to valley, of which a Gaussian filter of 50 UPR passes 2^−(3/50)² (ISO 16610-21)."""
+    x, c, z = cone(half_angle_deg=0.0)
+    form = ta.form(x + 2e-3 * np.cos(3 * c - 1.0), c, z, **UNITS)
+    roundness = form.sections[0].values.RONt_LSCI
+    assert abs(roundness.value - 4e-3 * 2.0 ** -((3 / 50) ** 2)) < 4.5 * roundness.u  # as above
+    assert form.to_pandas().loc["sections.0.values.RONt_LSCI", "value"] == roundness.value
+    for values, written in zip((form.sections[0].values, form.groups[0].values),
+                               (form.to_dict()["sections"][0]["values"], form.to_dict()["groups"][0]["values"])):
+        assert len(values) == len(written) > 10
+        for one in written:
+            found = values["_".join(filter(None, (one["name"], one.get("reference"))))].value
+            assert found == one["value"] or (np.isnan(found) and one["value"] is None)
+
+
 def test_a_simulation_knows_its_truth():
     made = ta.simulate({"part": {"surface": "cylinder", "radius_mm": 20.0, "x0_mm": 0.05},
                         "noise": {"sigma_mm": 1e-3},
                         "pass": [{"z_start_mm": 0, "z_end_mm": -20, "feed_mm_per_rev": 1.0, "speed_rpm": 60,
                                   "readings_per_revolution": 40}]}, seed=7)
     assert made.truth.clean_mm.shape == made.stream.reading_mm.shape
+    assert json.loads(str(made.truth)) == made.truth.to_dict()  # no screen of a command: its JSON
     left = made.stream.reading_mm - made.truth.clean_mm
     assert abs(left.std() / 1e-3 - 1.0) < 5.0 / np.sqrt(2 * len(left))
     fit = ta.fit(made.stream, surface="cylinder")
@@ -263,4 +279,8 @@ def test_file_names_in_a_dictionary_are_relative_to_the_working_directory(tmp_pa
         "pass": [{"z_start_mm": 0, "z_end_mm": -20, "feed_mm_per_rev": 1, "speed_rpm": 60, "readings_per_revolution": 20}]}))
     grid = [{"key": "noise.sigma_mm", "values": [0.001, 0.002]}]
     swept = ta.sweep({"scenario": "part.toml", "repeats": 4, "axis": grid})
-    assert "sweep.csv" in swept.files
+    table = swept.to_pandas()
+    assert "\n".join([",".join(table.columns), ""]) in swept.files["sweep.csv"]
+    # Two cells of 4 repeats each with the noise of its cell, and the same parameters in both.
+    assert list(table.groupby("cell")["noise.sigma_mm"].unique().map(list)) == [[0.001], [0.002]]
+    assert set(table["repeats"]) == {4} and not table.duplicated(["cell", "parameter"]).any()

@@ -158,7 +158,7 @@ def sweep(sweep: Document, output: Path | None = None, *, threads: int = 0, forc
     Returns
     -------
     Result
-        ``trueaxis.sweep/…``; ``files["sweep.csv"]`` is the table.
+        ``trueaxis.sweep/…``; ``to_pandas()`` is the table ``files["sweep.csv"]``.
     """
     with tempfile.TemporaryDirectory() as scratch, as_file(sweep, "sweep.toml") as path:
         folder = FilePath(scratch, "result") if output is None else FilePath(output)

@@ -158,7 +158,8 @@ def form(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | 
     Returns
     -------
     Result
-        ``trueaxis.form/1``; arrays ``angle_rad_0``, ``raw_mm_0``, ``filtered_mm_0`` of the first section,
+        ``trueaxis.form/1``; values by name and reference, ``sections[0].values.RONt_LSCI`` and
+        ``groups[0].values.CYLt_LSCY``; arrays ``angle_rad_0``, ``raw_mm_0``, ``filtered_mm_0`` of the first section,
         ``…_1`` of the next, before and after the filter.
     """
     if np.shape(band_upr) != (2,) or not 1.0 <= band_upr[0] < band_upr[1] <= 1500.0:

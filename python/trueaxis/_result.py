@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import io
 import json
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
@@ -165,9 +166,11 @@ class Result:
         return [*super().__dir__(), *self._names()]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Returns every quantity as a row: value, u, U, unit, why; by its dotted name."""
+        """Returns every quantity as a row: value, u, U, unit, why; by its dotted name. A sweep returns its table ``sweep.csv``."""
         import pandas
 
+        if "sweep.csv" in self.files:
+            return pandas.read_csv(io.StringIO(self.files["sweep.csv"]), comment="#")
         rows = {name: (one.value, one.u, one.U, one.unit, one.why) for name, one in quantities(self._all())}
         return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "u", "U", "unit", "why"])
 
@@ -186,11 +189,12 @@ class Result:
         return _plot.figure_of(self)
 
     def __str__(self) -> str:
-        return str(self._found.screen()).rstrip("\n")
+        """The screen of the command; of a truth, which has none, the JSON."""
+        return (self._found.screen() or self.to_json()).rstrip("\n")
 
     def __repr__(self) -> str:
-        lines = str(self).splitlines()
-        return f"<{self.schema}: {lines[0] if lines else ''}>"
+        headline = self._found.screen().partition("\n")[0]
+        return f"<{self.schema}: {headline}>" if headline else f"<{self.schema}>"
 
     def _repr_html_(self) -> str:
         return f'<pre style="white-space: pre-wrap">{html.escape(str(self))}</pre>' + _plot.svg_of(self)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -176,7 +176,8 @@ def read(path: Path, *, x: str | None = None, relative: bool = False, nominal_ra
     relative, nominal_radius_mm, drop_invalid, sensor_angles_deg
         As in :func:`stream`.
     columns : str
-        Columns of another program's file, as ``"X=Diameter,C=Angle(°),Z=3[mm]"``.
+        Columns of another program's file by name or number, with a unit if the file states none:
+        ``"X=Diameter,C=Angle[rad],Z=3[mm]"``.
     skip : int
         Lines above the table.
     z_from_mm, z_to_mm : float, optional
@@ -189,23 +190,30 @@ def read(path: Path, *, x: str | None = None, relative: bool = False, nominal_ra
                              list(sensor_angles_deg))
 
 
-def _expect_known(function: Any, given: str, units: Mapping[str, Any]) -> None:
-    known = function.__kwdefaults__
+def _expect_known(known: Iterable[str], given: str, units: Iterable[str]) -> None:
     unknown = [name for name in units if name not in known]
-    if unknown:
-        raise InputError(f"{', '.join(unknown)}: there is no such argument for {given}; it takes {', '.join(known)}")
+    if not unknown:
+        return
+    if given == "a file" and all(name.endswith("_unit") for name in unknown):
+        raise InputError(f'{", ".join(unknown)}: not for a file: write units in its header, as C[rad] and t[ms], or in '
+                         'columns="X=1[mm],C=2[rad],Z=3[mm]"')
+    raise InputError(f"{', '.join(unknown)}: there is no such argument for {given}; in addition to those that help() of "
+                     f"the function lists it takes {', '.join(known) or 'none'}")
 
 
 def taken(readings: Any, c: Any, z: Any, units: dict[str, Any]) -> Stream:
     """Returns the stream that a function was given, whatever it was given as."""
     if isinstance(readings, Stream):
-        if c is not None or z is not None or units:
-            raise InputError("a stream has its units: leave c, z and the units out")
+        if c is not None or z is not None:
+            raise InputError("a stream has its own columns: leave c and z out")
+        if any(name in stream.__kwdefaults__ or name in read.__kwdefaults__ for name in units):
+            raise InputError(f"{', '.join(units)}: a stream has its units and what else it was read with: leave them out")
+        _expect_known((), "a stream", units)
         return readings
     if isinstance(readings, (str, os.PathLike)):
         if c is not None or z is not None:
             raise InputError("a file has its own columns: leave c and z out")
-        _expect_known(read, "a file, whose header says its units", units)
+        _expect_known(read.__kwdefaults__, "a file", units)
         return read(readings, **units)
-    _expect_known(stream, "arrays", units)
+    _expect_known(stream.__kwdefaults__, "arrays", units)
     return stream(readings, c, z, **units)

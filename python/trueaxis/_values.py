@@ -151,10 +151,19 @@ def _number(value: float | None) -> float:
     return math.nan if value is None else float(value)
 
 
+def _by_name(json: list[Any]) -> dict[str, Any] | None:
+    """Returns a list of quantities that have names, such as those of a form, by name and reference: RONt_LSCI."""
+    if not json or not all(isinstance(one, dict) and {"name", "value", "unit"} <= one.keys() for one in json):
+        return None
+    named = {"_".join(one[key] for key in ("name", "reference") if key in one): one for one in json}
+    return named if len(named) == len(json) else None
+
+
 def frozen(json: Any, k: float = 2.0) -> Any:
     """Returns JSON as immutable objects: quantities, covariances, nodes and tuples."""
     if isinstance(json, list):
-        return tuple(frozen(item, k) for item in json)
+        named = _by_name(json)
+        return tuple(frozen(item, k) for item in json) if named is None else frozen(named, k)
     if not isinstance(json, dict):
         return json
     k = float(json.get("coverage_factor", k))

@@ -53,12 +53,27 @@ void take_unit(const Recording& recording, TakenColumn& taken,
   }
 }
 
+/// `Angle[rad]` is the column Angle in radians unless the header has a column Angle[rad].
+ColumnsSaid::Item with_unit_split(const Recording& recording, ColumnsSaid::Item item) {
+  const std::size_t open = item.column.rfind('[');
+  if (item.unit || open == std::string::npos || item.column.back() != ']' ||
+      find_column(recording, item.column))
+    return item;
+  const std::string name(trimmed(std::string_view(item.column).substr(0, open)));
+  if (!find_column(recording, name)) return item;
+  item.unit =
+      trimmed(std::string_view(item.column).substr(open + 1, item.column.size() - open - 2));
+  item.column = name;
+  return item;
+}
+
 std::vector<TakenColumn> as_said(const Recording& recording, const ColumnsSaid& said,
                                  std::vector<std::string>& unclear) {
   std::vector<TakenColumn> taken;
   const bool face = std::ranges::any_of(
       said.items, [](const auto& item) { return role_of_word(item.role) == RecordedRole::face; });
-  for (const ColumnsSaid::Item& item : said.items) {
+  for (const ColumnsSaid::Item& as_written : said.items) {
+    const ColumnsSaid::Item item = with_unit_split(recording, as_written);
     const auto role = role_of_word(item.role);
     const auto column = find_column(recording, item.column);
     if (!role) {

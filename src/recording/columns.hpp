@@ -23,7 +23,7 @@ struct TakenColumn {
 };
 
 /// `--columns "X=Diameter,C=Angle(°),Z=3[mm]"`: a stream's column and, after '=', the name in the
-/// file's header or the number of the column, with a unit in brackets if the file states none.
+/// file's header or the number of the column, each with a unit in brackets if the file states none.
 /// `decimal=point` or `decimal=comma` may be there too.
 struct ColumnsSaid {
   struct Item {

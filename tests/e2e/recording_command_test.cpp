@@ -263,6 +263,11 @@ TEST_F(RecordingCommand, RowsAreNotLeftOutThatShouldNotBe) {
     return i % 2 == 0 ? std::string("NaN").append(good.substr(good.find(','))) : good;
   });
   expect_input_error("fit half.csv --surface cylinder --drop-invalid", "too many to exclude them");
+  // A name that is wrong is the mistake, not rows of which all others have values.
+  file("name.csv", "X_M,Angle,Z\nnan,0,1\n25.2,90,2\n25.3,180,3\n25.2,270,4\n");
+  const CommandStreams name = command("fit name.csv --surface cylinder --radius --drop-invalid");
+  EXPECT_NE(name.err.find("unknown column 'Angle'"), std::string::npos) << name.err;
+  EXPECT_EQ(name.err.find("too many"), std::string::npos) << name.err;
   file("comma.csv", "X_M[mm];C[deg];Z[mm]\n25.1;0;1\n25,2;90;2\n25.3;180;3\n25.2;270;4\n");
   expect_input_error("fit comma.csv --surface section --radius --drop-invalid", "25,2");
 }

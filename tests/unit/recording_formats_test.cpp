@@ -87,6 +87,13 @@ std::vector<Producer> producers() {
                                       shown_deg(s, i), s.position_mm[i]);
                  },
                  said("X=Diameter,C=Angle(°),Z=4[mm]")});
+  all.push_back({"units_said_of_names", "Dia,Angle,Where\n",
+                 [](const ProbeStream& s, std::size_t i) {
+                   return fmt::format("{:.3f},{:.6f},{:.6f}\n", 2000.0 * s.reading_mm[i],
+                                      std::fmod(s.c_rad[i], 2.0 * std::numbers::pi),
+                                      s.position_mm[i]);
+                 },
+                 said("X=Dia[um],C=Angle[rad],Z=Where[mm]"), 0.5e-6, 0.5e-6});
   // As LinuxCNC 2.9 wrote one: nine numbers, no header, whatever axes there are.
   all.push_back({"linuxcnc_probeopen", "",
                  [](const ProbeStream& s, std::size_t i) {
