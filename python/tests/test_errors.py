@@ -245,6 +245,11 @@ def test_an_argument_that_does_not_go_with_a_file_has_its_remedy(named, said):
         ta.form("data/streams/shaft_cone_seat.csv", **named)
 
 
+def test_an_element_is_for_points():
+    with pytest.raises(ta.InputError, match="element: .*leave it out"):
+        ta.form("data/streams/shaft_cone_seat.csv", element="cylinder")
+
+
 @pytest.mark.parametrize("named, said", [({"c_unit": "rad"}, "c_unit: a stream has its units.*leave"),
                                          ({"surface": "cylinder"}, r"surface: there is no such argument.*help\(\)")])
 def test_an_argument_that_does_not_go_with_a_stream_has_its_remedy(named, said):

@@ -4,10 +4,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import trueaxis as ta
 
 DATA = Path(__file__).resolve().parents[2] / "data"
+
+
+def expect_legend_inside(sheet):
+    """Everything of the legend is on the sheet, and is not wider than it."""
+    FigureCanvasAgg(sheet).draw()
+    (axes,) = sheet.axes
+    box, (width, height) = axes.get_legend().get_window_extent(), sheet.bbox.size
+    assert 0.0 <= box.x0 and box.x1 <= width and 0.0 <= box.y0 and box.y1 <= height, (box, width, height)
+    assert axes.get_position().width > 0.6  # the chart is not squeezed by it
 
 
 def test_a_job_shows_the_axis_of_each_seat_and_the_table():
@@ -41,7 +51,9 @@ def test_a_calibration_shows_every_error_with_U():
 def test_a_plan_shows_the_goal_and_each_recommendation():
     plan = ta.plan(goal_um=0.05, surface="cylinder", radius_mm=20.0, length_mm=30.0, sigma_um=1.0, feed_mm=0.5,
                    per_revolution=36, speed_rpm=60, repeats=100, free={"readings_per_revolution": (4, 400), "sigma_um": (0.1, 2)})
-    (axes,) = plan.plot().axes
+    sheet = plan.plot()
+    expect_legend_inside(sheet)
+    (axes,) = sheet.axes
     assert [label.get_text() for label in axes.get_yticklabels()] == ["as given", *(one.what for one in plan.recommended)]
     goal = next(line for line in axes.get_lines() if line.get_label() == "goal")
     assert list(goal.get_xdata()) == [0.05, 0.05]
@@ -50,6 +62,8 @@ def test_a_plan_shows_the_goal_and_each_recommendation():
 def test_a_sweep_shows_the_ratio_of_each_row():
     sweep = ta.sweep({"name": "two levels", "repeats": 20, "scenario": str(DATA / "scenarios/shaft_cone_seat.toml"),
                       "axis": [{"key": "noise.sigma_um", "values": [1.0, 2.0]}]})
-    (axes,) = sweep.plot().axes
+    sheet = sweep.plot()
+    expect_legend_inside(sheet)
+    (axes,) = sheet.axes
     shown = sorted(float(y) for bars in axes.containers for y in bars[0].get_ydata())
     assert shown and shown == sorted(row.ratio.value for cell in sweep.cells for row in cell.rows if row.ratio.value is not None)

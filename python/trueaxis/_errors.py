@@ -26,7 +26,7 @@ class Refused(TrueAxisError):
 
 
 class NumericalError(TrueAxisError):
-    """A fit did not converge, or the readings do not determine its parameters."""
+    """A fit did not converge, the readings do not determine its parameters, or they look misread (unit, column)."""
 
 
 for _kind in (TrueAxisError, InputError, Refused, NumericalError):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -84,7 +85,8 @@ def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | N
     InputError
         If the readings are not those of this surface, or too few.
     NumericalError
-        If the fit did not converge or is not determined; ``error.result`` has what is.
+        If the fit did not converge or is not determined, or if a unit or column looks wrong;
+        ``error.result`` has what is known.
     Refused
         If the axis is not known; ``error.result`` says why.
     """
@@ -171,6 +173,8 @@ def form(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | 
         number("coverage_factor", coverage_factor, 0.0, 100.0, above=True), int(number("trials", trials, 10)), _seed(seed),
         int(number("threads", threads, 0, 4096)))
     if element is not None:
+        if isinstance(readings, (Stream, str, os.PathLike)):
+            raise InputError("element: it is for an array of points x, y, z; leave it out for readings of a lathe")
         if c is not None or z is not None or units or datum is not None:
             raise InputError("points are rows x, y, z in mm: leave c, z, units and datum out")
         with Shown("form", progress) as shown:

@@ -24,7 +24,7 @@ def of_sweep(result: Result) -> Figure | None:
     if not rows:
         return None
     sheet, (axes,) = figure("")
-    sheet.set_size_inches(max(4.2, 0.6 * len(result.cells) + 2.0), 4.2)
+    sheet.set_size_inches(max(6.4, 0.6 * len(result.cells) + 2.0), 4.2)  # at least the width of the legend
     names = list(dict.fromkeys(row.parameter for _, _, row in rows))
     for k, name in enumerate(names):
         of = [(i, row.ratio.value, row.ratio.interval_95) for i, _, row in rows if row.parameter == name]
@@ -38,7 +38,7 @@ def of_sweep(result: Result) -> Figure | None:
              xlabel=", ".join(axis.name for axis in result.axes))
     cells = {i: "\n".join([*(str(cell.at[name]) for name in cell.at)]) for i, cell, _ in rows}
     axes.set_xticks(list(cells), list(cells.values()), fontsize=7)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.25), ncols=6, fontsize=7, frameon=False)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.25), ncols=5, fontsize=7, frameon=False)
     return sheet
 
 
