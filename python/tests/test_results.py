@@ -44,6 +44,14 @@ def test_a_fit_finds_the_part_within_its_uncertainty():
     assert abs(fit.rms.value / SIGMA_MM - 1.0) < 5.0 / np.sqrt(2 * len(x))
 
 
+def test_a_stated_noise_counts_if_it_is_the_larger():
+    x, c, z = cone()
+    u = {noise_um: ta.fit(x, c, z, surface="cone", noise_um=noise_um, **UNITS).x0.u for noise_um in (None, 0.5, 2.0, 4.0)}
+    assert u[0.5] == u[None]  # the readings show 1 µm
+    assert u[4.0] == pytest.approx(2.0 * u[2.0], rel=1e-9)  # u is proportional to σ
+    assert u[2.0] > u[None]
+
+
 def test_the_units_of_the_arrays_are_those_said():
     x, c, z = cone()
     first = ta.fit(x, c, z, surface="cone", **UNITS)

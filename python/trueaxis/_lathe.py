@@ -59,7 +59,7 @@ def fit(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLike | N
     ball_radius_mm : float
         Radius of the ball in mm if x is that of its centre.
     noise_um : float, optional
-        Standard deviation of one reading in µm; otherwise the readings show it.
+        Standard deviation of one reading in µm. A value below that of the residuals does not lower u.
     coverage_factor : float
         k of U = k u.
     checked : bool
