@@ -30,6 +30,7 @@ std::string language_of(const Recording& recording) {
 void take_unit(const Recording& recording, TakenColumn& taken,
                const std::optional<std::string>& said, std::vector<std::string>& unclear) {
   const std::string unit = said.value_or(recording.columns[taken.column].unit);
+  taken.unit_typed = said.has_value();
   if (unit.empty()) {
     taken.unit = default_unit(taken.role);
     taken.unit_said = false;

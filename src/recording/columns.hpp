@@ -19,6 +19,7 @@ struct TakenColumn {
   std::size_t column = 0;
   std::string unit{};              ///< as a stream writes it: "mm", "um", "deg"; empty of a count
   bool unit_said = true;           ///< false: nobody states it; the default of a stream applies
+  bool unit_typed = false;         ///< `--columns` states it, whatever the file does
   std::optional<bool> diameter{};  ///< of x: what its name or unit says, if anything
 };
 

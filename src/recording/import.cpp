@@ -129,6 +129,7 @@ void describe(const Recording& recording, const std::vector<TakenColumn>& taken,
     add_to_list(text, std::string(word_of(column.role)) + " = column " +
                           std::to_string(column.column + 1) +
                           (whole.empty() ? "" : " (" + whole + ")"));
+    if (column.unit_typed && !column.unit.empty()) text += " in " + column.unit;
     if (column.role == RecordedRole::x) text += diameter ? ", a diameter" : ", a radius";
     if (!column.unit_said && !column.unit.empty())
       add_to_list(supposed, std::string(word_of(column.role)) + " in " + column.unit);

@@ -66,6 +66,17 @@ TEST_F(RecordingDoubts, CommasThatMayPartThousandsAreAsked) {
               "holds no table of numbers with decimal points");
 }
 
+TEST_F(RecordingDoubts, AUnitThatIsTypedIsRepeated) {
+  const std::string rows = "20.1,0,1\n20.2,1,2\n20.3,2,3\n";
+  const ProbeStream stream =
+      read("Dia,Angle[deg],Pos[mm]\n" + rows, "X=Dia[um],C=Angle[rad],Z=Pos");
+  EXPECT_EQ(stream.c_rad, (Readings{0.0, 1.0, 2.0}));
+  expect_said(
+      stream.read_as.front(),
+      "X = column 1 (Dia) in um, a diameter, C = column 2 (Angle[deg]) in rad, Z = column 3 "
+      "(Pos[mm])");
+}
+
 TEST_F(RecordingDoubts, TheProposalHasEveryColumnThatTheHeaderNames) {
   const std::string rows = "0,20.1,5,1,1\n0.5,20.2,95,2,1\n1,20.1,185,3,2\n";
   const std::string text = "t_s,reading,C,Z,pass\n" + rows;
