@@ -249,6 +249,12 @@ def test_a_quantity_takes_a_format():
     assert f"{one:.2f}" == "1.23" and f"{one}" == "1.235 ± 0.020 mm"
 
 
+@pytest.mark.parametrize("value, u, text", [(3.55e-15, 3e-19, "0 mm"), (20.0000123, 1e-14, "20.0000123 mm"),
+                                            (1e-15, np.nan, "1e-15 mm"), (1.0, 5e-12, "1.000000000000 ± 0.000000000010 mm")])
+def test_a_quantity_has_no_digits_of_rounding(value, u, text):
+    assert str(ta.Quantity(value, u, "mm")) == text
+
+
 def test_a_figure_has_titles_units_and_a_closed_curve():
     x, c, z = cone()
     for figure in (ta.fit(x, c, z, surface="cone", **UNITS).plot(), ta.form(x, c, z, **UNITS).plot()):

@@ -61,7 +61,9 @@ class Quantity:
             return "not determined" + (f" ({self.why})" if self.why else "")
         if not self.U > 0.0:
             return f"{self.value:.6g}{unit}"
-        decimals = min(max(1 - math.floor(math.log10(self.U)), 0), 12)  # two digits of U (GUM 7.2.6)
+        if self.U < 1e-12:  # rounding: the deepest valley about the circle inside it is 0, not 3.55e-15 ± 6e-19 mm
+            return f"{round(self.value, 12):.12g}{unit}"
+        decimals = max(1 - math.floor(math.log10(self.U)), 0)  # two digits of U (GUM 7.2.6)
         return f"{self.value:.{decimals}f} ± {self.U:.{decimals}f}{unit}"
 
 
