@@ -61,6 +61,9 @@ def test_wrong_arrays_are_refused():
 def test_rows_without_a_value_are_left_out_if_asked():
     x, c, z = cylinder()
     x[[7, 9]] = np.nan
+    with pytest.raises(ta.InputError) as error:  # no command could read an array
+        ta.stream(x, c, z, **UNITS)
+    assert "2 rows have no value: --drop-invalid excludes them" in str(error.value) and "import" not in str(error.value)
     stream = ta.stream(x, c, z, drop_invalid=True, **UNITS)
     assert len(stream) == len(x) - 2 and stream.read_as
 

@@ -61,6 +61,7 @@ class LineReader {
 
   /// Columns below the header that are numbers already; all at once if nothing is unusual.
   void columns(std::span<const std::span<const double>> columns) {
+    of_arrays_ = true;
     if (!rows_ || rows_->take_columns(columns)) return;
     std::vector<double> row(columns.size());
     for (std::size_t i = 0; i < columns.front().size(); ++i) {
@@ -101,7 +102,8 @@ class LineReader {
       csv_finish(header_, metadata_, options_, stream_, diagnostics_);
     }
     if (rows_ && !dropped)
-      diagnostics_.remedy(rows_->invalid().remedy(stream_.source, options_, {}, good));
+      diagnostics_.remedy(
+          rows_->invalid().remedy(of_arrays_ ? "" : stream_.source, options_, {}, good));
     diagnostics_.throw_if_any();
     if (dropped) stream_.read_as.push_back(rows_->invalid().left_out());
     if (options_.drop_invalid) leave_out_limits(stream_);
@@ -142,6 +144,7 @@ class LineReader {
   CsvHeader header_;
   std::optional<CsvRows> rows_;
   std::size_t line_number_ = 0;
+  bool of_arrays_ = false;
 };
 
 struct HashStateDeleter {

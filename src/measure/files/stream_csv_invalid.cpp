@@ -49,6 +49,9 @@ std::string CsvInvalidRows::left_out(const std::function<std::size_t(std::size_t
 std::string CsvInvalidRows::remedy(const std::string& file, const StreamReadOptions& options,
                                    const std::vector<std::string>& words, std::size_t good) const {
   if (!any() || !csv_too_many_invalid(count(), good).empty()) return "";
+  const std::string rows = counted(count(), "row has", "rows have");
+  const char* const them = count() == 1 ? "it" : "them";
+  if (file.empty()) return fmt::format("{} no value: --drop-invalid excludes {}", rows, them);
   std::vector<std::string> line = options.typed;
   const bool none = line.empty();
   if (none) line = {"trueaxis", "import", file};
@@ -60,9 +63,7 @@ std::string CsvInvalidRows::remedy(const std::string& file, const StreamReadOpti
     line.push_back((file == "-" ? "my" : std::filesystem::path(file).stem().string()) +
                    "_clean.csv");
   }
-  return fmt::format("{} no value: the command that excludes {}: {}",
-                     counted(count(), "row has", "rows have"), count() == 1 ? "it" : "them",
-                     shell_line(line));
+  return fmt::format("{} no value: the command that excludes {}: {}", rows, them, shell_line(line));
 }
 
 std::string csv_too_many_invalid(std::size_t invalid, std::size_t good) {

@@ -29,7 +29,8 @@ class CsvInvalidRows {
   /// The remark with how many rows are excluded, in which lines, and why.
   std::string left_out(const std::function<std::size_t(std::size_t)>& line_of = {}) const;
 
-  /// The command that excludes them; empty if there are none, or hardly any others.
+  /// The command that excludes them, or the option alone if there is no `file` that it could read;
+  /// empty if there are none, or hardly any others.
   std::string remedy(const std::string& file, const StreamReadOptions& options,
                      const std::vector<std::string>& words, std::size_t good) const;
 
