@@ -9,6 +9,7 @@
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_words.hpp"
+#include "job/next_measurement.hpp"
 #include "job/seat_distance.hpp"
 #include "job/slip.hpp"
 #include "report/page_data.hpp"
@@ -65,21 +66,6 @@ std::string measurement_text(const NextMeasurement& next) {
       next.what, std::ceil(next.minutes), layout::probability(next.power_after));
 }
 
-/// The most telling measurement of all diagnoses that found something.
-const NextMeasurement* best_next(const JobResult& result) {
-  const auto gain = [](const NextMeasurement& next) {
-    return next.power_after - next.power_before;
-  };
-  const NextMeasurement* best = nullptr;
-  for (const auto& diagnosis : result.diagnoses) {
-    if (!diagnosis || diagnosis->next.plan.empty() ||
-        (diagnosis->findings.empty() && diagnosis->unexplained.empty()))
-      continue;
-    if (best == nullptr || gain(diagnosis->next) > gain(*best)) best = &diagnosis->next;
-  }
-  return best;
-}
-
 /// Whether the verdict itself is that of a slip.
 bool is_of_slip(const Verdict& verdict) {
   return std::ranges::any_of(verdict.reasons, [](const Reason& reason) {
@@ -134,7 +120,8 @@ Json next_data(const JobResult& result) {
   const Reasons would_prove = result.verdict.what_would_prove();
   if (!would_prove.empty()) steps.push_back(words_of(would_prove, "; ", result));
   if (result.correction && would_prove.empty()) steps.push_back(cut_text(result));
-  if (const NextMeasurement* next = best_next(result)) steps.push_back(measurement_text(*next));
+  if (const NextMeasurement* next = next_measurement(result))
+    steps.push_back(measurement_text(*next));
   if (result.correction) return steps;
   if (result.verdict.decision == Decision::no_go)
     steps.push_back("Mend what the verdict names, and run the job again");

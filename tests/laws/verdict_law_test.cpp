@@ -8,6 +8,7 @@
 
 #include "diagnose/files/seen.hpp"
 #include "job/files/job_words.hpp"
+#include "job/next_measurement.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -98,6 +99,7 @@ TEST(Verdict, ASlipThatLastsIsNamedByItsTimesAndRefused) {
     EXPECT_NEAR(onset.value, 15.0, 4.0 * onset.u) << seed;
     EXPECT_NEAR(duration.value, 6.0, 4.0 * duration.u) << seed;
     EXPECT_LT(duration.u, 0.5);
+    EXPECT_EQ(next_measurement(result), nullptr) << "it is clamped again first";
     const AxisEstimate& axis = result.diagnoses[0]->extended.axis;
     const double n = std::sqrt(1.0 - s.part.l * s.part.l - s.part.m * s.part.m);
     const auto at = axis.axis.at(40.0);

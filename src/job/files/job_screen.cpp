@@ -12,6 +12,7 @@
 #include "job/files/feedback_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_words.hpp"
+#include "job/next_measurement.hpp"
 #include "job/references.hpp"
 #include "trueaxis/units.hpp"
 
@@ -75,19 +76,10 @@ std::string datum_screen(const JobResult& result) {
   return text;
 }
 
-/// The measurement that the diagnoses ask for, the most telling of them.
 std::string next_screen(const JobResult& result) {
   if (const Reasons would = result.verdict.what_would_prove(); !would.empty())
     return "next   " + words_of(would, "; ", result) + "\n";
-  const NextMeasurement* best = nullptr;
-  for (const auto& diagnosis : result.diagnoses) {
-    if (!diagnosis || diagnosis->next.plan.empty() || diagnosis->findings.empty()) continue;
-    const auto gain = [](const NextMeasurement& next) {
-      return next.power_after - next.power_before;
-    };
-    if (best == nullptr || gain(diagnosis->next) > gain(*best)) best = &diagnosis->next;
-  }
-  if (best != nullptr)
+  if (const NextMeasurement* best = next_measurement(result))
     return fmt::format("next   to tell the causes apart: {} ({:.0f} min)\n", best->what,
                        std::ceil(best->minutes));
   return "";
