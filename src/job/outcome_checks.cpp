@@ -86,7 +86,10 @@ Reasons find_refutation(const CheckInput& in) {
     if (i >= in.job.resimulations.size()) return {};
     const auto& again = in.job.resimulations[i];
     if (!again || !again->why_not.empty() || !refuted(again->comparison)) return {};
-    const NextMeasurement& next = in.job.diagnoses[i]->next;
+    // Without a cause the two simulations differ by the average of the axis alone.
+    const Diagnosis& diagnosis = *in.job.diagnoses[i];
+    if (diagnosis.findings.empty() && diagnosis.unexplained.empty()) return {};
+    const NextMeasurement& next = diagnosis.next;
     const Comparison& c = again->comparison;
     const bool asked = !next.plan.empty() && !next.what.empty();
     return Reason{ReasonCode::not_reproduced,
