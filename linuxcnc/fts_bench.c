@@ -22,7 +22,7 @@ static int in_order(const void *a, const void *b) { return (*(const float *)a > 
 /* The least of the passes so far, for each call: what a call costs without what interrupts it. */
 static double pass(const struct fts_table *table, long calls, int number, float *least) {
   const double low = fmin(table->z_start_mm, table->z_end_mm), high = fmax(table->z_start_mm, table->z_end_mm);
-  const struct fts_limits limits = {10.0, low, high, 1e9, 1e9, 0.05, 0.1, 0.0};
+  const struct fts_limits limits = {10.0, low, high, 1e9, 1e9, 0.05, 0.1, 0.0, 1e9};
   struct fts_servo servo = {0};
   struct fts_input in = {0.0, table->z_start_mm, 0.0, 0.0, 0.0, 0, 1, 1};
   const double period_s = 1e-4, step_deg = table->sense * 6.0 * table->speed_rpm * period_s;

@@ -88,6 +88,7 @@ static int doubt_of_motion(const struct fts_servo *servo, const struct fts_table
   if (ahead < -FTS_BACKLASH_DEG || ahead > FTS_BACKLASH_DEG + 2.0 * 6.0 * t->speed_limit_rpm * period_s)
     return FTS_C_JUMPED;
   if (speed > t->speed_limit_rpm * (1.0 + limits->speed_tolerance)) return FTS_SPEED_LIMIT;
+  if (servo->waited_s > limits->wait_s) return FTS_SPEED;
   if (servo->share > 0.0 && !(fabs(speed - t->speed_rpm) <= limits->speed_tolerance * t->speed_rpm)) return FTS_SPEED;
   if (limits->following_limit_mm > 0.0 && fabs(servo->out.following_error_mm) > limits->following_limit_mm)
     return FTS_FOLLOWING;
@@ -116,6 +117,7 @@ void fts_servo_period(struct fts_servo *servo, const struct fts_table *table, co
     if (fabs(servo->turned_deg) >= 360.0) out->fault = end_check(servo, table, limits, in->z_mm);
   }
   servo->was_checking = in->check;
+  servo->waited_s = in->enable && servo->share == 0.0 ? servo->waited_s + period_s : 0.0;
 
   if (in->enable && out->fault == FTS_NONE) out->fault = doubt_of_table(servo, table, limits, in);
   if (in->enable && out->fault == FTS_NONE) out->fault = doubt_of_motion(servo, table, limits, step_deg, period_s);

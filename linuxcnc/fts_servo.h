@@ -38,6 +38,7 @@ struct fts_limits {
   double speed_tolerance;           /* share of the table's speed */
   double ramp_s;                    /* from nothing to the whole correction */
   double following_limit_mm;        /* 0: no feedback */
+  double wait_s;                    /* that the spindle has to come to the speed of the table */
 };
 
 struct fts_input {
@@ -52,7 +53,7 @@ struct fts_output {
 
 struct fts_servo {
   struct fts_output out;
-  double c_deg, value_mm, share;
+  double c_deg, value_mm, share, waited_s;
   int started, was_checking;
   double turned_deg, n, c, s, cc, cs, ss, y, yc, ys; /* of the check: C passed, and sums of 1, cos C, sin C, reading */
 };

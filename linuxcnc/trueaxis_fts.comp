@@ -46,6 +46,7 @@ param rw float check_tolerance = 0.005 "that the axis found by check may be off 
 param rw float speed_tolerance = 0.05 "share of the table's speed";
 param rw float ramp_time = 0.5 "s";
 param rw float following_limit = 0 "mm; 0: feedback is not connected";
+param rw float wait = 10 "that the spindle has to come to the speed of the table, s; then a fault, as it would cut uncorrected";
 variable fts_servo_state servo;
 variable double age_s;
 function _ fp "reads C and Z, writes position";
@@ -84,7 +85,7 @@ static void _(struct __comp_state *hal, long period) {
   *hal->age = hal->age_s;
   const struct fts_limits limits = {hal->stroke,          hal->z_low,           hal->z_high,
                                     hal->max_age,         hal->check_tolerance, hal->speed_tolerance,
-                                    hal->ramp_time,       hal->following_limit};
+                                    hal->ramp_time,       hal->following_limit, hal->wait};
   const struct fts_input in = {*hal->c,   *hal->z,      *hal->probe, *hal->feedback,
                                hal->age_s, *hal->enable, *hal->check, *hal->c_homed};
   fts_servo_period(servo, &rows, &limits, &in, period_s);

@@ -200,7 +200,7 @@ TEST(ServoComponent, AFileThatIsNotTheWholeTableIsRefused) {
 struct Machine {
   explicit Machine(const Table& table) : table_(table.c) {}
 
-  fts_limits limits{0.6, 41.0, 69.0, 28800.0, 0.002, 0.05, 0.02, 0.0};
+  fts_limits limits{0.6, 41.0, 69.0, 28800.0, 0.002, 0.05, 0.02, 0.0, 10.0};
   fts_input in{0.0, 60.0, 0.0, 0.0, 10.0, 0, 0, 1};
   double rpm = speed_rpm, c_zero_deg = 0.0, probe_gain = 1.0;
   double x_mm = 0.09, y_mm = -0.05;  ///< of the part at Z = 50
@@ -306,6 +306,10 @@ TEST(ServoComponent, PlantedMistakesAreRefusedByName) {
   slow.rpm = 300.0;
   slow.check_and_enable();
   EXPECT_EQ(slow.servo.out.fault, FTS_NONE);
+  EXPECT_EQ(slow.servo.out.position_mm, 0.0);
+  slow.limits.wait_s = 0.5;  // and not for ever: the cut would go on without the table
+  slow.run(600);
+  EXPECT_EQ(slow.servo.out.fault, FTS_SPEED);
   EXPECT_EQ(slow.servo.out.position_mm, 0.0);
 }
 
