@@ -56,21 +56,6 @@ TEST_P(DiagnosedSlip, IsNoNoiseHoweverLarge) {
   }
 }
 
-// A smooth surface cannot follow a step of 30 σ. The readings about it are not excluded for that,
-// and date it to the interval between two of them, 1/24.3 s.
-TEST(LargeSlip, IsDatedByTheReadingsAboutIt) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    Scenario scenario = turned_cylinder();
-    scenario.seed = seed;
-    scenario.effects = {{"part.slip", {{"time_s", 12.0}, {"dx_mm", 0.06}}}};
-    const Diagnosis diagnosis = diagnosed(simulate(scenario));
-    EXPECT_TRUE(diagnosis.noise.masked.empty()) << seed;
-    ASSERT_NE(diagnosis.slip(), nullptr) << seed;
-    EXPECT_NEAR(diagnosis.slip()->term.shape.onset_s, 12.0, 2.0 / 24.3) << seed;
-    EXPECT_EQ(diagnosis.slip()->term.shape.duration_s, 0.0) << seed;
-  }
-}
-
 // The readings right at a step are predicted across it, and one large innovation of the noise looks
 // the same there. A slip also shows in what follows: 240 readings a side with ρ = 0.8 tell as much
 // as 27 independent ones, so that a step of 5 σ is one of 18 standard errors.

@@ -108,6 +108,19 @@ TEST(Verdict, ASlipThatLastsIsNamedByItsTimesAndRefused) {
   }
 }
 
+// No smooth form follows a step of 20 σ two turns before the end. The readings beyond it do not
+// count as outliers for that, and date it to two intervals between them.
+TEST(Verdict, ASlipNearTheEndIsDatedAndNotExcluded) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    Scenario s = cylinder(seed);
+    s.effects.push_back({"part.slip", {{"dx_mm", 0.02}, {"dy_mm", 0.0}, {"time_s", 38.0}}});
+    const JobResult result = decided(s);
+    EXPECT_TRUE(result.diagnoses[0]->noise.masked.empty()) << seed;
+    ASSERT_NE(result.diagnoses[0]->slip(), nullptr) << seed;
+    EXPECT_NEAR(result.diagnoses[0]->slip()->term.shape.onset_s, 38.0, 2.0 / 36.7) << seed;
+  }
+}
+
 // Where the part was before, and the step.
 TEST(Verdict, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
   for (const std::uint64_t seed : {4, 5, 6, 7}) {

@@ -3,6 +3,7 @@
 // threads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
@@ -42,6 +43,23 @@ double largest_roundness(const FormResult& result) {
   for (const SectionForm& section : result.sections)
     largest = std::max(largest, size_of(value_of(section.values, "RONt", "MZCI")));
   return largest;
+}
+
+// Lobes that are local have their top half-way between two of 13 even stations, 1.67 mm from each:
+// a station is there within an eighth of the step between them. One off it reads
+// 1 − exp(−1.67²/2/4²) = 8 % less of them.
+TEST(FormSurface, AStationIsAtTheTopOfLocalLobes) {
+  const double step_mm = length_mm / 12.0, top_mm = 6.5 * step_mm, a = 5e-3;
+  const auto lobes = [&](double c, double z) {
+    return 20.0 + a * std::exp(-0.5 * std::pow((z - top_mm) / 4.0, 2)) * std::cos(3.0 * c);
+  };
+  const FormResult result = assess_form(helix(lobes, 5e-5, 3), band(15.0));
+  const auto worst = std::ranges::max_element(result.sections, {}, [](const SectionForm& section) {
+    return size_of(value_of(section.values, "RONt", "MZCI"));
+  });
+  EXPECT_NEAR(worst->z_mm.value(), top_mm, step_mm / 4.0);
+  const double expected = 2.0 * a * through(3.0, 15.0);
+  EXPECT_NEAR(size_of(value_of(worst->values, "RONt", "MZCI")), expected, 0.04 * expected);
 }
 
 // Without noise the surface is the part: lobes that stay, through the filter. An eccentric circle
