@@ -26,8 +26,6 @@
 namespace trueaxis::python {
 namespace {
 
-constexpr std::size_t quickly_fitted = 200000;  // readings, in 5 ms: no thread is worth starting
-
 void expect_one_sensor(const ProbeStream& stream) {
   if (!stream.more_reading_mm.empty())
     throw InputError(stream.source, "has several sensors: they belong to spindle()");
@@ -50,14 +48,12 @@ FitResult fit_as_asked(const ProbeStream& stream, const FitOptions& options, boo
 
 Outcome fit_of(const Stream& stream, const FitOptions& options, bool checked,
                const py::object& progress) {
-  const auto work = [&] {
-    auto found = std::make_shared<Fitted>(Fitted{stream, options, {}});
-    found->result = fit_as_asked(*stream, found->options, checked);
-    cli::expect_enough_readings(found->result);
-    return std::shared_ptr<const Fitted>(found);
-  };
-  const auto found =
-      stream->size() < quickly_fitted ? without_python(work) : stoppable(progress, work);
+  const auto found = stoppable(progress, [&] {
+    auto one = std::make_shared<Fitted>(Fitted{stream, options, {}});
+    one->result = fit_as_asked(*stream, one->options, checked);
+    cli::expect_enough_readings(one->result);
+    return std::shared_ptr<const Fitted>(one);
+  });
   Outcome out = outcome_of(
       found, [](const Fitted& one) { return fit_json(one.result); },
       [](const Fitted& one) { return fit_screen(one.result); });

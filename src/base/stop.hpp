@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 
 namespace trueaxis {
 
@@ -14,7 +15,9 @@ struct Stopped {};
 class Stoppable {
  public:
   /// @param share of the work that is done: set by work that counts, read by who waits
-  explicit Stoppable(const std::atomic<bool>* asked, std::atomic<double>* share = nullptr);
+  /// @param look called by this thread alone, whenever it looks whether to end: it may ask for that
+  explicit Stoppable(const std::atomic<bool>* asked, std::atomic<double>* share = nullptr,
+                     const std::function<void()>* look = nullptr);
   ~Stoppable();
   Stoppable(const Stoppable&) = delete;
   Stoppable& operator=(const Stoppable&) = delete;
@@ -22,6 +25,7 @@ class Stoppable {
  private:
   const std::atomic<bool>* before_;
   std::atomic<double>* share_before_;
+  const std::function<void()>* look_before_;
 };
 
 /// What this thread's work is stopped by; nullptr: nothing.

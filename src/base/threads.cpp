@@ -24,10 +24,9 @@ void for_each_index_with(std::size_t count, int threads, const std::function<Ind
   std::mutex one_at_a_time;
   std::exception_ptr failure;
   std::size_t failed = count;
-  const auto loop = [&, asked = stopped_by(), share = share_done()] {
+  const auto loop = [&] {
     std::size_t i = 0;
     try {
-      const Stoppable stoppable(asked, share);
       const IndexedWork work = make();
       for (i = next++; i < count; i = next++) {
         stop_if_asked();
@@ -40,14 +39,18 @@ void for_each_index_with(std::size_t count, int threads, const std::function<Ind
       if (!failure || i < failed) failure = std::current_exception(), failed = i;
     }
   };
+  const auto helper = [&, asked = stopped_by(), share = share_done()] {
+    const Stoppable stoppable(asked, share);
+    loop();
+  };
   std::vector<std::thread> helpers;
   try {
-    for (std::size_t t = threads_for(threads, count); t > 1; --t) helpers.emplace_back(loop);
+    for (std::size_t t = threads_for(threads, count); t > 1; --t) helpers.emplace_back(helper);
   } catch (const std::system_error&) {
     // The system gives no more threads: those that run do the work.
   }
   loop();
-  for (std::thread& helper : helpers) helper.join();
+  for (std::thread& each : helpers) each.join();
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/angle.hpp"
+#include "base/stop.hpp"
 #include "math/statistics.hpp"
 #include "measure/column_order.hpp"
 #include "trueaxis/units.hpp"
@@ -211,8 +212,10 @@ std::string lost_decimal_point(const ProbeStream& stream) {
 std::string column_objection(const ProbeStream& stream) {
   if (!stream.x_convention) return "";  // who fills a stream in a program may model anything
   for (const auto& check : {stuck_probe, no_such_size, repeated_rows, counts_rows,
-                            lost_decimal_point, unit_changes, column_out_of_order})
+                            lost_decimal_point, unit_changes, column_out_of_order}) {
+    stop_if_asked();
     if (std::string why = check(stream); !why.empty()) return why;
+  }
   return "";
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "base/stop.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -251,6 +252,7 @@ class FeedSigner {
 }  // namespace
 
 StepSigns find_step_signs(const ProbeStream& stream, std::size_t begin, std::size_t end) {
+  stop_if_asked();
   const std::size_t count = end - begin;
   StepSigns signs;
   signs.c.assign(count - 1, 0);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/angle.hpp"
+#include "base/stop.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "measure/passes.hpp"
@@ -116,6 +117,7 @@ double RobustCircle::at(double c_rad) const {
 }
 
 RobustCircle robust_circle(const ProbeStream& stream, const std::vector<std::size_t>& readings) {
+  stop_if_asked();
   const auto n = static_cast<Eigen::Index>(readings.size());
   Eigen::MatrixX3d basis(n, 3);
   Eigen::VectorXd reading(n), weight = Eigen::VectorXd::Ones(n);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/stop.hpp"
 #include "math/gram.hpp"
 #include "trueaxis/error.hpp"
 
@@ -59,6 +60,7 @@ NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
   const std::size_t columns = surface.column_count();
   expects(working.size() == surface.parameter_count(),
           "as many working parameters as the surface has");
+  stop_if_asked();
   NormalMatrix out;
   out.parameters = working.size();
   Gram total{};
