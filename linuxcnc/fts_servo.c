@@ -15,6 +15,7 @@ const char *fts_fault_name(int fault) {
       "C is not homed",
       "the table leaves the stroke",
       "the program leaves the range of the table along Z",
+      "following-limit is not set: mm, or 0 for an actuator without feedback",
       "the table is older than max-age",
       "C zero and clamping are not checked: turn the part under the probe with the pin check",
       "the spindle turns the other way than the table is for",
@@ -69,14 +70,16 @@ static int end_check(struct fts_servo *servo, const struct fts_table *t, const s
   return FTS_C_ZERO;
 }
 
-/* Of table and machine: may this table be run here at all? */
+/* Of table and machine, before the ramp: may this table be run here at all? In the cut no answer would stop the tool. */
 static int doubt_of_table(const struct fts_servo *servo, const struct fts_table *t, const struct fts_limits *limits,
                           const struct fts_input *in) {
   if (!in->c_homed) return FTS_C_NOT_HOMED;
+  if (servo->share > 0.0) return FTS_NONE;
   if (!(t->most_mm <= 0.5 * limits->stroke_mm && t->least_mm >= -0.5 * limits->stroke_mm)) return FTS_STROKE;
   if (!(limits->z_low_mm < limits->z_high_mm && limits->z_low_mm >= fmin(t->z_start_mm, t->z_end_mm) &&
         limits->z_high_mm <= fmax(t->z_start_mm, t->z_end_mm)))
     return FTS_RANGE;
+  if (!(limits->following_limit_mm >= 0.0)) return FTS_LIMIT_NOT_STATED;
   if (!(in->age_s >= 0.0 && in->age_s <= limits->max_age_s)) return FTS_AGE;
   return servo->out.checked ? FTS_NONE : FTS_NOT_CHECKED;
 }
@@ -88,10 +91,10 @@ static int doubt_of_motion(const struct fts_servo *servo, const struct fts_table
   if (ahead < -FTS_BACKLASH_DEG || ahead > FTS_BACKLASH_DEG + 2.0 * 6.0 * t->speed_limit_rpm * period_s)
     return FTS_C_JUMPED;
   if (speed > t->speed_limit_rpm * (1.0 + limits->speed_tolerance)) return FTS_SPEED_LIMIT;
-  if (servo->waited_s > limits->wait_s) return FTS_SPEED;
-  if (servo->share > 0.0 && !(fabs(speed - t->speed_rpm) <= limits->speed_tolerance * t->speed_rpm)) return FTS_SPEED;
   if (limits->following_limit_mm > 0.0 && fabs(servo->out.following_error_mm) > limits->following_limit_mm)
     return FTS_FOLLOWING;
+  if (servo->waited_s > limits->wait_s) return FTS_SPEED;
+  if (servo->share > 0.0 && !(fabs(speed - t->speed_rpm) <= limits->speed_tolerance * t->speed_rpm)) return FTS_SPEED;
   return FTS_NONE;
 }
 
@@ -119,9 +122,14 @@ void fts_servo_period(struct fts_servo *servo, const struct fts_table *table, co
   servo->was_checking = in->check;
   servo->waited_s = in->enable && servo->share == 0.0 ? servo->waited_s + period_s : 0.0;
 
-  if (in->enable && out->fault == FTS_NONE) out->fault = doubt_of_table(servo, table, limits, in);
-  if (in->enable && out->fault == FTS_NONE) out->fault = doubt_of_motion(servo, table, limits, step_deg, period_s);
-  if (out->fault == FTS_NONE)
+  if (in->enable && (out->fault == FTS_NONE || out->fault == FTS_SPEED)) {
+    int doubt = doubt_of_table(servo, table, limits, in);
+    if (doubt == FTS_NONE) doubt = doubt_of_motion(servo, table, limits, step_deg, period_s);
+    if (doubt != FTS_NONE) out->fault = doubt;
+  }
+  /* With another speed C and Z are right, and the lag is wrong by less than what is held would be: a feed hold that
+   * stops C too goes on along the table. */
+  if (out->fault == FTS_NONE || out->fault == FTS_SPEED)
     servo->value_mm = fts_table_at(table, fts_table_turns(table, in->c_deg), in->z_mm);
   /* A fault holds the position; without `enable` it is then left by the ramp, from where it is. */
   const double change = limits->ramp_s > period_s ? period_s / limits->ramp_s : 1.0;

@@ -14,11 +14,12 @@ enum fts_fault {
   FTS_C_NOT_HOMED,      /* C has no index */
   FTS_STROKE,           /* the table leaves the stroke about its middle */
   FTS_RANGE,            /* the program leaves the range of the table along Z */
+  FTS_LIMIT_NOT_STATED, /* nobody says what the feedback may be off, or that there is none */
   FTS_AGE,              /* the table is older than allowed */
   FTS_NOT_CHECKED,      /* C zero and clamping were not checked with the probe */
   FTS_SENSE,            /* the spindle turns the other way */
   FTS_SPEED_LIMIT,      /* faster than the actuator follows */
-  FTS_SPEED,            /* another speed than that of the table */
+  FTS_SPEED,            /* another speed than that of the table: the lag is not the one that it is for */
   FTS_C_JUMPED,         /* C moved farther in a period than the spindle can */
   FTS_FOLLOWING,        /* the feedback is off the command */
   FTS_PROBE_INVERTED,   /* the check reads the part the other way round */
@@ -37,7 +38,7 @@ struct fts_limits {
   double check_tolerance_mm;        /* that the axis found by the check may be off the table's */
   double speed_tolerance;           /* share of the table's speed */
   double ramp_s;                    /* from nothing to the whole correction */
-  double following_limit_mm;        /* 0: no feedback */
+  double following_limit_mm;        /* 0: no feedback; less: not stated */
   double wait_s;                    /* that the spindle has to come to the speed of the table */
 };
 

@@ -8,7 +8,7 @@ Sends a fast tool servo the value of a correction table at the present C and Z. 
 
 A file that is not a whole, unchanged table is refused then. Everything else is compared while
 .B enable
-is true. On any doubt the position is held, and
+is true. On any doubt the position is held, or follows C and Z on if only the speed is another one, and
 .B fault
 is true until
 .B enable
@@ -19,7 +19,6 @@ author "the TrueAxis authors";
 option singleton yes;
 option no_convenience_defines yes;
 option extra_setup yes;
-option extra_cleanup yes;
 include "fts_servo.h";
 
 pin in float c "spindle angle, degrees, as the probe stream counts it; wrapped or running";
@@ -45,7 +44,7 @@ param rw float max_age = 28800 "of the table, s";
 param rw float check_tolerance = 0.005 "that the axis found by check may be off that of the table, mm";
 param rw float speed_tolerance = 0.05 "share of the table's speed";
 param rw float ramp_time = 0.5 "s";
-param rw float following_limit = 0 "mm; 0: feedback is not connected";
+param rw float following_limit = -1 "of following_error, mm; has to be set; 0: the servo has no feedback";
 param rw float wait = 10 "that the spindle has to come to the speed of the table, s; then a fault, as it would cut uncorrected";
 variable fts_servo_state servo;
 variable double age_s;
@@ -74,7 +73,8 @@ static int extra_setup(struct __comp_state *__comp_inst, char *prefix, long extr
   return 0;
 }
 
-static void extra_cleanup(void) { fts_table_free(&rows); }
+/* Only when the module is closed: until hal_exit, which halcompile calls after a cleanup, the thread may read the table. */
+__attribute__((destructor)) static void free_rows(void) { fts_table_free(&rows); }
 
 /* FUNCTION(_), written out: the macros of halcompile are names as short as those of fts_servo.c. */
 static void _(struct __comp_state *hal, long period) {
@@ -98,5 +98,6 @@ static void _(struct __comp_state *hal, long period) {
   *hal->fault = servo->out.fault != FTS_NONE;
   *hal->fault_code = (hal_u32_t)servo->out.fault;
   if (servo->out.fault != FTS_NONE && servo->out.fault != before)
-    rtapi_print_msg(RTAPI_MSG_ERR, "trueaxis_fts: position held: %s\n", fts_fault_name(servo->out.fault));
+    rtapi_print_msg(RTAPI_MSG_ERR, "trueaxis_fts: %s: %s\n",
+                    servo->out.fault == FTS_SPEED ? "follows on in doubt" : "position held", fts_fault_name(servo->out.fault));
 }

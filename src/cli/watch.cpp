@@ -34,7 +34,7 @@ constexpr std::chrono::milliseconds between_pictures{150};
 struct WatchArguments {
   RunArguments run;
   double until_U_um = 0.0, idle_s = 10.0;
-  int most_kept = 2000000;
+  int most_kept = 1000000;
   bool json_lines = false, hal = false;
 
   std::optional<double> wanted_U_mm() const {
@@ -98,12 +98,15 @@ class Watch {
     if (wrong_) return;
     take(text);
     try {
-      if (live_.kept().size() < fewest) return;
+      if (live_.size() < fewest) return;
       constexpr std::size_t enough_to_choose = 5000;
       const FitOptions fit = fit_of(options_, live_.sample(enough_to_choose));
       const LiveState state = live_state(live_, fit, known_, ++looks_);
       show(state);
-      if (state.fit.axis_known() && !state.deaf) known_ = state.fit;
+      if (state.fit.axis_known() && !state.deaf) {
+        known_ = state.fit;
+        live_.average_about(ideal_reading(known_));
+      }
     } catch (const Refusal&) {     // not one surface yet, or never: `run` says which
     } catch (const InputError&) {  // too little of it yet
     }
@@ -205,8 +208,11 @@ int execute(WatchArguments& options) {
   if (from_pipe) {
     if (!text.torn().empty()) std::cerr << "torn   the last line has no end and is excluded\n";
     if (watch.live().stride() > 1)
-      std::cerr << "thinned every " << watch.live().stride() << "th of " << watch.live().readings()
-                << " readings is kept, and the result is of those\n";
+      std::cerr << "thinned "
+                << (watch.live().averages() ? "each reading kept is the mean of "
+                                            : "one is kept of ")
+                << watch.live().stride() << " neighbours among the " << watch.live().readings()
+                << " that arrived\n";
     options.run.stream.path = written_stream(recording, options.run.force, text, watch.live());
   }
   return run(options.run);
@@ -230,7 +236,7 @@ void add_watch(CLI::App* command, int& exit_code) {
   add_option(*command, "--idle-s", options->idle_s, a_length(),
              "time without growth after which a file has ended, s (default 10)");
   add_option(*command, "--most-readings", options->most_kept, CLI::Range(1000, 100000000),
-             "readings that are kept before they are thinned (default 2000000)");
+             "readings that are kept before they are thinned (default 1000000)");
   add_json(*command, run.results, "trueaxis.run");
   add_force(*command, run.force);
   add_verbose(*command, run.verbose);

@@ -16,10 +16,6 @@ namespace {
 constexpr std::size_t most_used = 20000;  // a fit of them takes some 10 ms
 constexpr double least_slip = 0.25;  // of the noise of a reading: a long stream's U is far less
 
-double turns_of(const ProbeStream& stream) {
-  return std::abs(stream.c_rad.back() - stream.c_rad.front()) / two_pi;
-}
-
 void add_picture(LiveState& state, const ProbeStream& stream) {
   std::array<double, LiveState::bins> sum{}, count{};
   for (std::size_t i = 0; i < state.fit.residual_mm.size(); ++i) {
@@ -33,9 +29,29 @@ void add_picture(LiveState& state, const ProbeStream& stream) {
     state.left_mm[bin] = sum[bin] / count[bin];  // 0/0 without a reading
 }
 
+/// Readings less what the fit reads, about their median: a ball's radius is a constant.
+std::vector<double> left_of(const ProbeStream& stream, const IdealReading& ideal) {
+  std::vector<double> left = stream.reading_mm;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    left[i] -= ideal(stream.c_rad[i], stream.has_position() ? stream.position_mm[i] : 0.0);
+  const double middle = median(left);
+  for (double& one : left) one -= middle;
+  return left;
+}
+
 }  // namespace
 
-bool probe_is_deaf(const ProbeStream& stream, const FitResult& fit) {
+IdealReading ideal_reading(const FitResult& fit) {
+  const bool revolved = fit.surface == SurfaceKind::cone || fit.surface == SurfaceKind::cylinder ||
+                        fit.surface == SurfaceKind::section;
+  if (!revolved || !fit.axis_known()) return {};
+  return [shape = fit.shape, side = fit.set_ups.back().side](double c_rad, double z_mm) {
+    const Intersection at = intersect(shape, c_rad, z_mm, 0.0, side);
+    return at.hit ? at.x_mm : 0.0;
+  };
+}
+
+bool probe_is_deaf(const ProbeStream& stream, const FitResult& fit, double noise_mm) {
   if (!fit.axis_known()) return false;
   std::vector<double> read, wanted;
   std::size_t i = stream.size();
@@ -50,8 +66,7 @@ bool probe_is_deaf(const ProbeStream& stream, const FitResult& fit) {
   }
   if (i == 0) return false;
   const double moves = range_of(wanted).length();
-  // The standard deviation is of the deaf readings too; the median is not.
-  return moves > 10.0 * mad_sigma(fit.residual_mm) && range_of(read).length() < 0.25 * moves;
+  return moves > 10.0 * noise_mm && range_of(read).length() < 0.25 * moves;
 }
 
 LiveState live_state(const LiveStream& stream, const FitOptions& options, const FitResult& before,
@@ -61,18 +76,22 @@ LiveState live_state(const LiveStream& stream, const FitOptions& options, const 
   state.readings = stream.readings();
   state.used = sample.size();
   state.stride = stream.stride();
-  state.turns = turns_of(stream.kept());
+  state.turns = stream.turns();
   state.fit = fit(sample, options);
   state.U_mm =
       state.fit.axis_known() ? U_of_axis_mm(state.fit) : std::numeric_limits<double>::infinity();
   add_picture(state, sample);
+  // Means show a slip late: the latest readings show it at once.
+  const IdealReading ideal = stream.averages() ? ideal_reading(state.fit) : IdealReading();
+  const ProbeStream latest = ideal ? stream.recent(most_used) : sample;
+  const std::vector<double> left_mm = ideal ? left_of(latest, ideal) : state.fit.residual_mm;
   // All looks together see a slip in noise once in 1000 streams: 1/2 + 1/6 + 1/12 … is 1.
   const auto looks = static_cast<double>(look);
-  state.moved =
-      moved_in_pass(sample, state.fit.residual_mm, state.fit, 1e-3 / (looks * (looks + 1.0)));
-  if (state.moved && state.moved->size_mm < least_slip * mad_sigma(state.fit.residual_mm))
-    state.moved.reset();
-  state.deaf = probe_is_deaf(stream.kept(), before.axis_known() ? before : state.fit);
+  state.moved = moved_in_pass(latest, left_mm, state.fit, 1e-3 / (looks * (looks + 1.0)));
+  if (state.moved && state.moved->size_mm < least_slip * mad_sigma(left_mm)) state.moved.reset();
+  const FitResult& known = before.axis_known() ? before : state.fit;
+  state.deaf = probe_is_deaf(stream.last(LiveStream::most_recent), known,
+                             mad_sigma(ideal ? left_mm : known.residual_mm));
   return state;
 }
 

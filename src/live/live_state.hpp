@@ -22,6 +22,9 @@ struct LiveState {
   std::array<double, bins> left_mm{};  ///< mean residual over C; not a number: no reading
 };
 
+/// What the fit reads; none for a surface that is not met along a line through the spindle axis.
+IdealReading ideal_reading(const FitResult& fit);
+
 /// @param before the last fit with a known axis, if there is one: a deaf probe spoils the next
 /// @throws InputError where the stream cannot be one of this surface
 LiveState live_state(const LiveStream& stream, const FitOptions& options, const FitResult& before,
@@ -29,6 +32,7 @@ LiveState live_state(const LiveStream& stream, const FitOptions& options, const 
 
 /// Whether the readings of the last half revolution do not follow the axis: it would move them by
 /// ten times their noise or more, and they move by less than a quarter of that.
-bool probe_is_deaf(const ProbeStream& stream, const FitResult& fit);
+/// @param noise_mm robust σ of a reading: the standard deviation holds the deaf readings too
+bool probe_is_deaf(const ProbeStream& stream, const FitResult& fit, double noise_mm);
 
 }  // namespace trueaxis

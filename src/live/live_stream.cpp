@@ -5,29 +5,16 @@
 #include <cmath>
 #include <utility>
 
+#include "math/golden_section.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
-/// Calls `each` with every column that a stream may have.
-template <class Each>
-void for_columns(ProbeStream& stream, const ProbeStream& other, Each each) {
-  each(stream.reading_mm, other.reading_mm);
-  each(stream.c_rad, other.c_rad);
-  each(stream.position_mm, other.position_mm);
-  each(stream.time_s, other.time_s);
-  each(stream.pass, other.pass);
-  each(stream.setup, other.setup);
-}
-
-/// All that is not a column.
-ProbeStream without_readings(const ProbeStream& stream) {
-  ProbeStream out = stream;
-  for_columns(out, stream, [](auto& column, const auto&) { column.clear(); });
-  return out;
-}
+constexpr double means_of_cell = 14.0;     // at least half as many are kept of each
+constexpr double sectors_per_band = 14.0;  // form has more waves over C than over Z
+constexpr double most_sectors = 3600.0;
 
 }  // namespace
 
@@ -35,52 +22,148 @@ LiveStream::LiveStream(std::size_t most) : most_(most) {
   expects(most >= 2, "two readings or more");
 }
 
-void LiveStream::take(const ProbeStream& next, std::size_t row) {
-  for_columns(kept_, next, [row](auto& column, const auto& from) {
-    if (!from.empty()) column.push_back(from[row]);
-  });
+void LiveStream::average_about(IdealReading ideal) {
+  if (stride_ == 1) ideal_ = std::move(ideal);
 }
+
+double LiveStream::turns() const { return std::abs(c_last_ - c_first_) / two_pi; }
 
 void LiveStream::add(ProbeStream next) {
   expects(next.more_reading_mm.empty(), "one sensor");
   if (next.size() == 0) return;
-  if (readings_ == 0) kept_ = without_readings(next);
-  if (kept_.size() > 0) {
-    const double gap = kept_.c_rad.back() - next.c_rad.front();
-    const double turns = std::round(gap / two_pi);
-    for (double& c : next.c_rad) c += two_pi * turns;
+  double whole = 0.0;
+  if (readings_ == 0) {
+    has_ = {next.has_position(), !next.time_s.empty(), !next.pass.empty(), !next.setup.empty()};
+    head_ = next;
+    for (auto* column : {&head_.reading_mm, &head_.c_rad, &head_.position_mm, &head_.time_s})
+      column->clear();
+    for (auto* column : {&head_.pass, &head_.setup}) column->clear();
+    c_first_ = next.c_rad.front();
+  } else {
+    whole = two_pi * std::round((c_last_ - next.c_rad.front()) / two_pi);
   }
-  for (std::size_t row = 0; row < next.size(); ++row, ++readings_) {
-    if (readings_ % stride_ != 0) continue;
-    if (kept_.size() == most_) {
-      const std::size_t half = (most_ + 1) / 2;
-      for_columns(kept_, kept_, [half](auto& column, const auto&) {
-        if (column.empty()) return;
-        for (std::size_t i = 0; i < half; ++i) column[i] = column[2 * i];
-        column.resize(half);
-      });
-      stride_ *= 2;
-      if (readings_ % stride_ != 0) continue;
-    }
-    take(next, row);
+  const auto at = [](const auto& column, std::size_t row) {
+    return column.empty() ? 0 : column[row];
+  };
+  for (std::size_t row = 0; row < next.size(); ++row) {
+    Reading reading{next.reading_mm[row],
+                    next.c_rad[row] + whole,
+                    at(next.position_mm, row),
+                    at(next.time_s, row),
+                    at(next.pass, row),
+                    at(next.setup, row),
+                    0,
+                    readings_++};
+    reading.motion = motion_.at(reading.c_rad, reading.position_mm, reading.time_s);
+    c_last_ = reading.c_rad;
+    recent_.push_back(reading);
+    if (recent_.size() > most_recent) recent_.pop_front();
+    put(reading);
   }
 }
 
-ProbeStream LiveStream::sample(std::size_t count) const {
-  const std::size_t size = kept_.size();
-  if (size <= count) return kept_;
-  constexpr double golden = 0.6180339887498949;
-  ProbeStream out = without_readings(kept_);
-  const double step = static_cast<double>(size) / static_cast<double>(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const double share = golden * static_cast<double>(k);
-    const double at = (static_cast<double>(k) + share - std::floor(share)) * step;
-    const std::size_t row = std::min(static_cast<std::size_t>(at), size - 1);
-    for_columns(out, kept_, [row](auto& column, const auto& from) {
-      if (!from.empty()) column.push_back(from[row]);
-    });
+void LiveStream::put(const Reading& reading) {
+  const bool full = rows_.size() == most_ || open_.size() > most_;
+  if (full) thin();
+  if (averages())
+    gather(reading, 1);
+  else if (reading.arrival % stride_ == 0)
+    rows_.push_back(reading);
+}
+
+LiveStream::Reading LiveStream::Mean::reading() const {
+  Reading mean = first;
+  if (count > 1) mean.value_mm = ideal_mm + deviation_mm / static_cast<double>(count);
+  return mean;
+}
+
+void LiveStream::gather(const Reading& reading, std::size_t count) {
+  const std::uint64_t cell = cell_of(reading);
+  Mean& mean = open_[cell];
+  const double ideal_mm = ideal_(reading.c_rad, reading.position_mm);
+  if (mean.count == 0) mean.first = reading, mean.ideal_mm = ideal_mm;
+  mean.deviation_mm += static_cast<double>(count) * (reading.value_mm - ideal_mm);
+  mean.count += count;
+  if (mean.count < stride_) return;
+  rows_.push_back(mean.reading());
+  open_.erase(cell);
+}
+
+void LiveStream::thin() {
+  const std::size_t before = std::exchange(stride_, 2 * stride_);
+  std::vector<Reading> rows = std::exchange(rows_, {});
+  const auto open = std::exchange(open_, {});
+  rows_.reserve(most_);
+  std::ranges::sort(rows, {}, &Reading::arrival);
+  if (!averages()) {
+    for (const Reading& row : rows)
+      if (row.arrival % stride_ == 0) rows_.push_back(row);
+    return;
   }
+  const auto [low, high] = std::ranges::minmax(rows, {}, &Reading::position_mm);
+  const double cells = std::max(1.0, static_cast<double>(most_) / means_of_cell);
+  const double length = high.position_mm - low.position_mm;
+  sectors_ = length > 0.0 ? std::sqrt(sectors_per_band * cells) : cells;
+  sectors_ = std::floor(std::clamp(sectors_, 1.0, most_sectors));
+  z_low_ = low.position_mm;
+  band_mm_ = length > 0.0 ? length / std::max(1.0, std::floor(cells / sectors_)) : 1.0;
+  for (const Reading& row : rows) gather(row, before);
+  for (const auto& [cell, mean] : open) gather(mean.reading(), mean.count);
+}
+
+std::uint64_t LiveStream::cell_of(const Reading& reading) const {
+  const double turns = reading.c_rad / two_pi, share = turns - std::floor(turns);
+  const auto sector = static_cast<std::uint64_t>(share * sectors_);
+  const double bands = std::floor((reading.position_mm - z_low_) / band_mm_);
+  const auto band = static_cast<std::uint64_t>(std::clamp(bands + 32768.0, 0.0, 65535.0));
+  const auto setup = static_cast<std::uint64_t>(reading.setup) & 0xff;
+  return (((setup << 16 | reading.motion) << 16 | sector) << 16) | band;
+}
+
+ProbeStream LiveStream::stream_of(std::vector<Reading> readings) const {
+  std::ranges::sort(readings, {}, &Reading::arrival);
+  ProbeStream out = head_;
+  const auto fill = [&](auto& column, auto member) {
+    column.reserve(readings.size());
+    for (const Reading& one : readings) column.push_back(one.*member);
+  };
+  fill(out.reading_mm, &Reading::value_mm);
+  fill(out.c_rad, &Reading::c_rad);
+  if (has_.position) fill(out.position_mm, &Reading::position_mm);
+  if (has_.time) fill(out.time_s, &Reading::time_s);
+  if (has_.pass) fill(out.pass, &Reading::pass);
+  if (has_.setup) fill(out.setup, &Reading::setup);
   return out;
+}
+
+ProbeStream LiveStream::kept() const {
+  std::vector<Reading> readings = rows_;
+  for (const auto& [cell, mean] : open_)
+    if (2 * mean.count >= stride_) readings.push_back(mean.reading());
+  ProbeStream out = stream_of(std::move(readings));
+  if (averages() && out.sensor_noise_mm)
+    *out.sensor_noise_mm /= std::sqrt(static_cast<double>(stride_));
+  return out;
+}
+
+template <class Readings>
+ProbeStream LiveStream::sample_of(const Readings& from, std::size_t begin,
+                                  std::size_t count) const {
+  const std::size_t size = from.size() - begin;
+  const double step = std::max(1.0, static_cast<double>(size) / static_cast<double>(count));
+  std::vector<Reading> readings;
+  for (std::size_t k = 0; k < std::min(size, count); ++k) {
+    const double at =
+        size > count ? (static_cast<double>(k) + golden_share(k)) * step : static_cast<double>(k);
+    readings.push_back(from[begin + std::min(static_cast<std::size_t>(at), size - 1)]);
+  }
+  return stream_of(std::move(readings));
+}
+
+ProbeStream LiveStream::sample(std::size_t count) const { return sample_of(rows_, 0, count); }
+ProbeStream LiveStream::recent(std::size_t count) const { return sample_of(recent_, 0, count); }
+ProbeStream LiveStream::last(std::size_t count) const {
+  return sample_of(recent_, recent_.size() - std::min(count, recent_.size()), count);
 }
 
 }  // namespace trueaxis

@@ -2,30 +2,88 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <unordered_map>
+#include <vector>
 
+#include "live/motion.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 
-/// A stream while it arrives. All readings are kept up to `most`; from then on every second of
-/// those that are there is dropped, and of the new ones as many, so that the memory stays.
+/// What the ideal fit reads at (C, Z), rad and mm.
+using IdealReading = std::function<double(double c_rad, double z_mm)>;
+
+/// A stream while it arrives. All readings are kept up to `most`. From then on a kept reading
+/// stands for the `stride` readings next to it in C and Z, of the same set-up, senses and speed:
+/// its value is the ideal fit there plus the mean deviation of all of them (Eq. 325). So the kept
+/// ones hold the information of all, and the memory stays. Without an ideal fit every stride-th
+/// reading is kept as it is.
 class LiveStream {
  public:
+  static constexpr std::size_t most_recent = 200000;  ///< some ten seconds of a fast probe
+
   explicit LiveStream(std::size_t most);
 
   /// The next readings, of one and the same recording: C goes on.
   void add(ProbeStream next);
+  /// The first one given before something is thinned counts.
+  void average_about(IdealReading ideal);
 
-  const ProbeStream& kept() const { return kept_; }
+  /// In the order of arrival.
+  ProbeStream kept() const;
+  std::size_t size() const { return rows_.size(); }
   std::size_t readings() const { return readings_; }  ///< that arrived
   std::size_t stride() const { return stride_; }      ///< 1: nothing was thinned
+  bool averages() const { return stride_ > 1 && ideal_; }
+  double turns() const;
+  /// Readings that are in no mean yet; with those that are kept it is the memory.
+  std::size_t open() const { return open_.size(); }
   /// At most `count` of those that are kept, spread evenly, but at no period of the sampling.
   ProbeStream sample(std::size_t count) const;
+  /// The same of the latest readings, of which none is thinned.
+  ProbeStream recent(std::size_t count) const;
+  /// The last readings as they arrived, at most `count`.
+  ProbeStream last(std::size_t count) const;
 
  private:
-  void take(const ProbeStream& next, std::size_t row);
+  struct Reading {
+    double value_mm, c_rad, position_mm, time_s;
+    int pass, setup;
+    std::uint32_t motion;
+    std::uint64_t arrival;
+  };
+  struct Mean {
+    Reading first;
+    double ideal_mm = 0.0, deviation_mm = 0.0;  ///< at `first`; their sum
+    std::size_t count = 0;
+    Reading reading() const;
+  };
 
-  ProbeStream kept_;
+  void put(const Reading& reading);
+  void gather(const Reading& reading, std::size_t count);
+  void thin();
+  std::uint64_t cell_of(const Reading& reading) const;
+  void put_grid();
+  ProbeStream stream_of(std::vector<Reading> readings) const;
+  template <class Readings>
+  ProbeStream sample_of(const Readings& from, std::size_t begin, std::size_t count) const;
+
+  struct Columns {
+    bool position = false, time = false, pass = false, setup = false;
+  };
+
+  ProbeStream head_;  ///< all that is not a column
+  Columns has_;
+  std::vector<Reading> rows_;
+  std::deque<Reading> recent_;
+  std::unordered_map<std::uint64_t, Mean> open_;
+  IdealReading ideal_;
+  Motion motion_;
+  double c_first_ = 0.0, c_last_ = 0.0;
+  double z_low_ = 0.0, band_mm_ = 1.0, sectors_ = 1.0;
   std::size_t most_, readings_ = 0, stride_ = 1;
 };
 

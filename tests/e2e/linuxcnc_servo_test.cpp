@@ -79,7 +79,7 @@ class LinuxCncServo : public CommandTest {
              table +
              "\nsetp trueaxis-fts.stroke 0.6\nsetp trueaxis-fts.z-low 42\n"
              "setp trueaxis-fts.z-high 60\nsetp trueaxis-fts.ramp-time 0.1\n"
-             "setp trueaxis-fts.c-homed 1\n" +
+             "setp trueaxis-fts.c-homed 1\nsetp trueaxis-fts.following-limit 0\n" +
              played.setting +
              "net c streamer.0.pin.0 => trueaxis-fts.c sampler.0.pin.0\n"
              "net z streamer.0.pin.1 => trueaxis-fts.z sampler.0.pin.1\n"
@@ -94,12 +94,7 @@ class LinuxCncServo : public CommandTest {
              "loadusr -w halstreamer rows.txt\nloadusr halsampler -n " +
              std::to_string(checking + enabled + after) +
              " samples.txt\nstart\nloadusr -w sleep 4\n");
-    std::filesystem::permissions(folder_, std::filesystem::perms::all);
-    std::string user = "cd " + shell_word(folder_) + " && ";
-    // A socket's whole path has 108 characters at most: it is named from the working folder.
-    if (getuid() == 0) user += "RTAPI_UID=65534 RTAPI_FIFO_PATH=fifo ";
-    const auto done = shell(user + "timeout 60 halrun -f servo.hal 2>&1");
-    said_ = done.output;
+    halrun("servo.hal");
     std::vector<std::array<double, 6>> samples;
     if (!there("samples.txt")) return samples;
     std::istringstream lines(read_text(folder_ / "samples.txt"));
@@ -110,6 +105,16 @@ class LinuxCncServo : public CommandTest {
       if (numbers) samples.push_back(one);
     }
     return samples;
+  }
+
+  int halrun(const std::string& commands) {
+    std::filesystem::permissions(folder_, std::filesystem::perms::all);
+    std::string user = "cd " + shell_word(folder_) + " && ";
+    // A socket's whole path has 108 characters at most: it is named from the working folder.
+    if (getuid() == 0) user += "RTAPI_UID=65534 RTAPI_FIFO_PATH=fifo ";
+    const auto done = shell(user + "timeout 60 halrun -f " + commands + " 2>&1");
+    said_ = done.output;
+    return done.exit_code;
   }
 
   std::string said_;
@@ -167,6 +172,24 @@ TEST_F(LinuxCncServo, RefusesTheOtherSenseAStaleTableAndAnInvertedProbeByName) {
   expect({.sense = -1}, "the spindle turns the other way than the table is for");
   expect({.probe_sign = -1.0}, "the probe is wired inverted");
   expect({.setting = "setp trueaxis-fts.max-age 0.001\n"}, "the table is older than max-age");
+  expect({.setting = "setp trueaxis-fts.following-limit -1\n"}, "following-limit is not set");
+}
+
+// A table for the next part, with the spindle turning: a thread of 20 µs runs on while the
+// component is unloaded without `delf`, and loaded again. A table that is freed before HAL has
+// taken the function out of the thread ends the process of all threads within five times.
+TEST_F(LinuxCncServo, IsUnloadedFromARunningThreadAndLoadedAgain) {
+  constexpr int times = 40;
+  std::string commands =
+      "loadrt threads name1=t period1=20000\nloadrt sum2 names=after\naddf after t\nstart\n";
+  for (int i = 0; i < times; ++i)
+    commands +=
+        "loadrt trueaxis_fts table=out/table.csv\naddf trueaxis-fts t\n"
+        "loadusr -w sleep 0.01\n" +
+        std::string(i % 2 == 0 ? "" : "delf trueaxis-fts t\n") + "unloadrt trueaxis_fts\n";
+  file("reload.hal", commands + "setp after.in0 7\nloadusr -w sleep 0.05\ngetp after.out\n");
+  EXPECT_EQ(halrun("reload.hal"), 0) << said_;
+  EXPECT_TRUE(contains(said_, "\n7\n")) << said_;  // the thread still adds
 }
 
 }  // namespace

@@ -277,6 +277,8 @@ TEST(ServoComponent, PlantedMistakesAreRefusedByName) {
       {"C zero 180° off or probe inverted", FTS_PROBE_INVERTED,
        [](Machine& m) { m.probe_gain = -1.0; }},
       {"clamped anew", FTS_OTHER_CLAMPING, [](Machine& m) { m.x_mm = 0.02; }},
+      {"no limit of the feedback", FTS_LIMIT_NOT_STATED,
+       [](Machine& m) { m.limits.following_limit_mm = -1.0; }},
       {"stale table", FTS_AGE, [](Machine& m) { m.in.age_s = 30000.0; }},
       {"table from the future", FTS_AGE, [](Machine& m) { m.in.age_s = -1.0; }},
       {"C not homed", FTS_C_NOT_HOMED, [](Machine& m) { m.in.c_homed = 0; }},
@@ -313,11 +315,46 @@ TEST(ServoComponent, PlantedMistakesAreRefusedByName) {
   EXPECT_EQ(slow.servo.out.position_mm, 0.0);
 }
 
+// A feed hold in the cut. If the spindle turns on, so does the correction. If C is an axis, it
+// stops with Z: a tool that is held then would dig in by up to the range of the table, and the
+// fault stays for the program, as the lag was another one. What was in order before the ramp is not
+// asked again.
+TEST(ServoComponent, AFeedHoldDoesNotDigIn) {
+  const Table table(correction_csv(correction_of(ordinary)));
+  Machine turning(table);
+  turning.check_and_enable();
+  for (int i = 0; i < 1000; ++i) {
+    turning.period();
+    ASSERT_EQ(turning.servo.out.position_mm, turning.wanted());
+  }
+  EXPECT_TRUE(turning.servo.out.active);
+  turning.in.age_s = 1e9;
+  turning.period();
+  EXPECT_EQ(turning.servo.out.position_mm, turning.wanted());
+
+  Machine stopping(table);
+  stopping.check_and_enable();
+  double least = 1.0, most = -1.0;
+  for (int i = 0; i < 1000; ++i) {
+    stopping.rpm = std::max(0.0, speed_rpm * (1.0 - i / 300.0));  // one and a half revolutions
+    stopping.period();
+    ASSERT_EQ(stopping.servo.out.position_mm, stopping.wanted());
+    if (stopping.servo.out.fault == FTS_NONE) continue;
+    least = std::min(least, stopping.servo.out.position_mm);
+    most = std::max(most, stopping.servo.out.position_mm);
+  }
+  EXPECT_EQ(stopping.servo.out.fault, FTS_SPEED);
+  EXPECT_FALSE(stopping.servo.out.active);
+  EXPECT_GT(most - least, 0.15);  // what a position that was held would have left: 2 x 0.1 mm
+  stopping.in.c_homed = 0;        // a doubt of C after one of the speed
+  stopping.period();
+  EXPECT_EQ(stopping.servo.out.fault, FTS_C_NOT_HOMED);
+}
+
 // While it follows: the position stays where it is, until `enable` is false, and then ramps out.
-TEST(ServoComponent, HoldsOnAnyDoubt) {
+TEST(ServoComponent, HoldsOnAnyDoubtOfCAndZ) {
   const Table table(correction_csv(correction_of(ordinary)));
   const Planted all[] = {
-      {"faster", FTS_SPEED, [](Machine& m) { m.rpm = 1.2 * speed_rpm; }},
       {"an encoder that jumps", FTS_C_JUMPED, [](Machine& m) { m.in.c_deg += 120.0; }},
       {"an encoder that jumps back", FTS_C_JUMPED, [](Machine& m) { m.in.c_deg -= 20.0; }},
       {"an encoder that is lost", FTS_NO_NUMBER, [](Machine& m) { m.in.c_deg = std::nan(""); }},
