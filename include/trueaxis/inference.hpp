@@ -32,9 +32,9 @@ struct Separating {
 struct Rival {
   std::string effect;     ///< id
   double distance = 0.0;  ///< d of the named cause's prediction from this one's best fit, in σ
-  double likelihood_ratio = 0.0;  ///< 2 ln(L_finding/L_rival), parameters paid for
-  double probability = 0.0;       ///< of this cause, among the class
-  bool structural = false;        ///< canonical correlation above 0.999: no amount of data helps
+  double log_likelihood_ratio = 0.0;  ///< ln(L_finding/L_rival), parameters paid for
+  double probability = 0.0;           ///< of this cause, among the class
+  bool structural = false;  ///< canonical correlation above 0.999: no amount of data helps
 };
 
 /// A cause that was found, with all that explain the same as well.

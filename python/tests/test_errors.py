@@ -50,7 +50,7 @@ def test_wrong_arrays_are_refused():
     for value in (np.nan, np.inf, 1e301):
         broken = x.copy()
         broken[7] = value
-        with pytest.raises(ta.InputError, match="arrays:8"):
+        with pytest.raises(ta.InputError, match=r"^x\[7\]: "):
             ta.fit(broken, c, z, surface="cylinder", **UNITS)
     with pytest.raises(ta.InputError, match="C never moves"):
         ta.fit(x, 0 * c, z, surface="cylinder", **UNITS)
@@ -63,7 +63,7 @@ def test_rows_without_a_value_are_left_out_if_asked():
     x[[7, 9]] = np.nan
     with pytest.raises(ta.InputError) as error:  # no command could read an array
         ta.stream(x, c, z, **UNITS)
-    assert "2 rows have no value: --drop-invalid excludes them" in str(error.value) and "import" not in str(error.value)
+    assert "2 rows have no value: drop_invalid=True excludes them" in str(error.value) and "import" not in str(error.value)
     stream = ta.stream(x, c, z, drop_invalid=True, **UNITS)
     assert len(stream) == len(x) - 2 and stream.read_as
 
@@ -210,17 +210,17 @@ def test_a_value_that_is_hidden_missing_or_no_number_is_no_reading():
     missing = pandas.Series(x).astype("Float64")
     missing[7] = pandas.NA
     for broken in (hidden, missing):
-        with pytest.raises(ta.InputError, match="arrays:8"):
+        with pytest.raises(ta.InputError, match=r"^x\[7\]: "):
             ta.fit(broken, c, z, surface="cylinder", **UNITS)
         assert len(ta.stream(broken, c, z, drop_invalid=True, **UNITS)) == len(x) - 1
     for broken in (x + 0j, ["a"] * len(x), x > 0):
-        with pytest.raises(ta.InputError, match="X_M.*numbers"):
+        with pytest.raises(ta.InputError, match="^x: not.*numbers"):
             ta.fit(broken, c, z, surface="cylinder", **UNITS)
     points = np.ma.masked_greater(np.random.default_rng(1).normal(size=(30, 3)), 1.5)
     for function in (ta.associate, ta.form):
         with pytest.raises(ta.InputError, match="points:.*not finite"):
             function(points, element="plane")
-    with pytest.raises(ta.InputError, match="t.*numbers"):
+    with pytest.raises(ta.InputError, match="^t_s: not.*numbers"):
         ta.fit(x, c, z, surface="cylinder", t_s=pandas.date_range("2026-01-01", periods=len(x)), **UNITS)
 
 
@@ -282,6 +282,3 @@ def test_a_refusal_says_why():
     assert error.value.result.to_dict()["parameters"]["x0"]["value"] is None
 
 
-def test_messages_about_a_dictionary_name_no_file_that_is_gone():
-    with pytest.raises(ta.InputError, match="^sweep.toml:1"):
-        ta.sweep({"sweep": {"surface": "cone"}})

@@ -140,6 +140,35 @@ def test_pandas_has_every_quantity():
     assert len(diagnosis.to_pandas()) > len(table)
 
 
+def test_pandas_has_what_an_entry_of_a_list_is_of():
+    x, c, z = cone()
+    fit = ta.fit(x, c, z, surface="cone", **UNITS)
+    assert fit.to_pandas().loc["budget.0.u.x0", "of"] == fit.budget[0].source != ""
+    form = ta.form(x, c, z, **UNITS)
+    circles = form.to_pandas().filter(regex=r"^sections\.0\.circles\.\d\.radius$", axis="index")["of"]
+    assert list(circles) == [one.reference for one in form.sections[0].circles] and len(set(circles)) == len(circles) > 1
+    diagnosis = ta.diagnose(STREAM, surface="cone")
+    table = diagnosis.to_pandas()
+    for i, finding in enumerate(diagnosis.findings):
+        assert set(table.filter(regex=rf"^findings\.{i}\.parameters", axis="index")["of"]) == {finding.effect}
+
+
+def test_the_circle_around_a_profile_has_no_peak_and_the_circle_in_it_no_valley():
+    """By their definitions: RONp of MCCI and RONv of MICI are 0, and no rounding of the radius."""
+    x, c, z = cone(half_angle_deg=0.0)
+    for section in ta.form(x + 3e-3 * np.cos(5 * c), c, z, **UNITS).sections:
+        for one in (section.values.RONp_MCCI, section.values.RONv_MICI):
+            assert (one.value, one.u) == (0.0, 0.0) and str(one) == "0 mm"
+
+
+def test_a_sweep_without_noise_has_no_spread():
+    found = ta.sweep({"part": {"surface": "cylinder", "radius_mm": 20}, "pass": [{"z_start_mm": 5, "z_end_mm": 65}], "repeats": 10})
+    table = found.to_pandas()
+    assert table[["sd", "u_bias", "q05", "coverage", "mean_u"]].isna().all(axis=None)
+    assert (table[["bias", "rmse"]] == 0.0).all(axis=None)  # the lathe and the fit have the same cylinder
+    assert "e-" not in str(found) and "%" not in str(found)
+
+
 def test_a_notebook_shows_headline_and_chart():
     found = ta.diagnose(STREAM, surface="cone")
     said, chart = found._repr_html_().split("</pre>")

@@ -12,7 +12,8 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from ._errors import InputError
+from ._errors import InputError, TrueAxisError
+from ._words import in_python
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -97,7 +98,12 @@ def with_checked_arguments(function: _Function) -> _Function:
     def call(*args: Any, **given: Any) -> Any:
         if not (fine.issuperset(zip(order, map(type, args))) and fine.issuperset(zip(given, map(type, given.values())))):
             look({**dict(zip(order, args)), **given})
-        return function(*args, **given)
+        try:
+            return function(*args, **given)
+        except TrueAxisError as error:
+            readings = args[0] if args else next(iter(given.values()), None)
+            error.args = (in_python(str(error), readings if "c" in order else None, given.get("source", "arrays")),)
+            raise
 
     call.__kwdefaults__ = function.__kwdefaults__  # stream() and read() list them
     return cast(_Function, call)

@@ -77,7 +77,7 @@ def run_job(job: Document, output: Path | None = None, *, force: bool = False, p
     Result
         ``trueaxis.run/2``. ``verdict`` may be no go: that is an answer and no error.
     """
-    with tempfile.TemporaryDirectory() as scratch, as_file(job, "job.toml") as path:
+    with tempfile.TemporaryDirectory() as scratch, as_file(job, "job") as path:
         folder = FilePath(scratch, "result") if output is None else FilePath(output)
         words = ["run", path, "-o", str(folder), *_options({"force": force})]
         return _run(words, "job", progress, folder / "result.json", folder, verdict=True, scratch=output is None)
@@ -133,7 +133,7 @@ def plan(scenario: Document | None = None, *, goal_um: float, free: Mapping[str,
         ending = [*_options(given), "--json", str(json)]
         if scenario is None:
             return _run(["study", "plan", *ending], "plan", progress, json, verdict=True)
-        with as_file(scenario, "scenario.toml") as path:
+        with as_file(scenario, "scenario") as path:
             return _run(["study", "plan", path, *ending], "plan", progress, json, verdict=True)
 
 
@@ -160,7 +160,7 @@ def sweep(sweep: Document, output: Path | None = None, *, threads: int = 0, forc
     Result
         ``trueaxis.sweep/…``; ``to_pandas()`` is the table ``files["sweep.csv"]``.
     """
-    with tempfile.TemporaryDirectory() as scratch, as_file(sweep, "sweep.toml") as path:
+    with tempfile.TemporaryDirectory() as scratch, as_file(sweep, "sweep") as path:
         folder = FilePath(scratch, "result") if output is None else FilePath(output)
         words = ["study", "sweep", path, "-o", str(folder), *_options({"threads": threads, "force": force})]
         return _run(words, "sweep", progress, folder / "sweep.json", folder, scratch=output is None)
@@ -168,7 +168,7 @@ def sweep(sweep: Document, output: Path | None = None, *, threads: int = 0, forc
 
 def _on_machine(command: str, inputs: Sequence[str], machine: Document, written: str, doing: str,
                 progress: Progress, given: Mapping[str, Any]) -> Result:
-    with tempfile.TemporaryDirectory() as scratch, as_file(machine, "machine.toml") as path:
+    with tempfile.TemporaryDirectory() as scratch, as_file(machine, "machine") as path:
         folder = FilePath(scratch, "out")
         folder.mkdir()
         json = FilePath(scratch, "result.json")

@@ -115,7 +115,7 @@ def diagnose(readings: Readings, c: npt.ArrayLike | None = None, z: npt.ArrayLik
     Returns
     -------
     Result
-        ``trueaxis.diagnosis/2``: ``verdict``, ``findings``, ``baseline``, ``extended`` (the final axis),
+        ``trueaxis.diagnosis/3``: ``verdict``, ``findings``, ``baseline``, ``extended`` (the final axis),
         ``gain``; arrays ``residual_before_mm``, ``residual_after_mm``, ``effect_mm`` of shape (n,)
         and ``spectrum_order``, ``spectrum_before_mm``, ``spectrum_after_mm``.
     """
@@ -297,7 +297,7 @@ def correct(diagnosis: Result, target: Document, *, progress: Progress = None) -
     outcome = diagnosis._found if isinstance(diagnosis, Result) else None
     if not isinstance(outcome, _core.DiagnosisOutcome):
         raise InputError("diagnosis: give what diagnose() returns")
-    with as_file(target, "target.toml") as path, Shown("correction", progress) as shown:
+    with as_file(target, "target") as path, Shown("correction", progress) as shown:
         return result_of(_core.correct(outcome, path, shown), diagnosis.stream)
 
 
@@ -329,7 +329,6 @@ def simulate(scenario: Document, *, seed: int | None = None, progress: Progress 
     progress : callable, optional
         As in :func:`fit`.
     """
-    text, name = as_text(scenario, "scenario")
-    with Shown("simulation", progress) as shown:
+    with as_text(scenario, "scenario") as (text, name), Shown("simulation", progress) as shown:
         stream, truth = _core.simulate(text, name, None if seed is None else _seed(seed), shown)
     return Simulation(stream, result_of(truth, stream))

@@ -62,7 +62,7 @@ class Machine:
         if sign is not None:
             one_of("sign", sign, ("moving_part", "tool_minus_workpiece"))
         one_of("work_offset", work_offset, ("G54", "G55", "G56", "G57", "G58", "G59"))
-        with as_file(machine, "machine.toml") as path:
+        with as_file(machine, "machine") as path:
             self._machine = _core.open_machine(path, [os.fspath(one) for one in errors], sign or "", large_errors,
                                                work_offset)
         self.name: str = self._machine.name

@@ -12,6 +12,7 @@ from . import _plot
 from ._errors import ended
 from ._streams import Stream
 from ._values import Floats, Node, frozen, quantities
+from ._words import with_arguments
 
 if TYPE_CHECKING:
     import pandas
@@ -157,7 +158,7 @@ class Result:
     def _reasons(self, code: int) -> list[str]:
         """Why the parameters of a refused result are not known; other errors say why themselves."""
         parts = self._parts() if code == 1 else []
-        return list(dict.fromkeys(one.why for part in parts for _, one in quantities(part) if one.why))
+        return list(dict.fromkeys(one.why for part in parts for _, one, _ in quantities(part) if one.why))
 
     def _names(self) -> list[str]:
         return [*self._all(), *(name for part in self._parts() for name in part), *self._found.arrays]
@@ -166,13 +167,17 @@ class Result:
         return [*super().__dir__(), *self._names()]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Returns every quantity as a row: value, u, U, unit, why; by its dotted name. A sweep returns its table ``sweep.csv``."""
+        """Returns every quantity as a row by its dotted name: value, u, U, unit, why, and what the entry of a list is of.
+
+        Of ``budget.0.u.x0`` that is the source of the uncertainty, of ``sections.0.circles.1.x`` the reference circle,
+        and of ``findings.0.parameters.amplitude`` the cause. A sweep returns its table ``sweep.csv``.
+        """
         import pandas
 
         if "sweep.csv" in self.files:
             return pandas.read_csv(io.StringIO(self.files["sweep.csv"]), comment="#")
-        rows = {name: (one.value, one.u, one.U, one.unit, one.why) for name, one in quantities(self._all())}
-        return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "u", "U", "unit", "why"])
+        rows = {name: (one.value, one.u, one.U, one.unit, one.why, of) for name, one, of in quantities(self._all())}
+        return pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "u", "U", "unit", "why", "of"])
 
     def plot(self) -> Figure:
         """Draws the result with matplotlib.
@@ -189,8 +194,8 @@ class Result:
         return _plot.figure_of(self)
 
     def __str__(self) -> str:
-        """The screen of the command; of a truth, which has none, the JSON."""
-        return (self._found.screen() or self.to_json()).rstrip("\n")
+        """The screen of the command, with arguments for its options; of a truth, which has none, the JSON."""
+        return (with_arguments(self._found.screen()) or self.to_json()).rstrip("\n")
 
     def __repr__(self) -> str:
         headline = self._found.screen().partition("\n")[0]

@@ -13,6 +13,7 @@ from . import _core
 from ._arguments import with_checked_arguments
 from ._errors import InputError
 from ._values import Floats
+from ._words import argument_of, made_of_table
 
 Stream = _core.Stream
 setattr(Stream, "__repr__", lambda one: f"<trueaxis.Stream: {len(one)} readings of {one.source}>")
@@ -135,7 +136,8 @@ def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | No
     if isinstance(x, (Stream, str)):
         raise InputError("x is not an array: give a stream or a path to the function itself, or read() it")
     several = len(sensor_angles_deg) > 0
-    if isinstance(x, Mapping) or hasattr(x, "columns"):
+    table = isinstance(x, Mapping) or hasattr(x, "columns")
+    if isinstance(x, Mapping) or table:
         named: Any = x
         if x_unit is not None or c is not None:
             raise InputError("the names of a table's columns say their units, X_M[mm dia], C[deg], Z[mm]: leave c, z and "
@@ -143,14 +145,19 @@ def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | No
         names = [str(name) for name in (named if isinstance(x, Mapping) else named.columns)]
         columns = {name: named[name] for name in names}
         is_face = any(name.lstrip().startswith("Z_M") for name in names)
+        if not is_face and not any(name.lstrip().startswith("X_M") for name in names):
+            raise InputError(f"no column is called X_M, and the names are {', '.join(names)}: name them X_M[mm dia], C[deg], "
+                             f"Z[mm], t[s], or give the columns with their units: table[{names[0]!r}] and so on, {_SAY_X}"
+                             if names else "the table has no columns")
     else:
         columns = _named_columns(x, c, z, t_s, x_unit, c_unit, z_unit, several)
         is_face = False
-    numbers = [numbers_of(name, column) for name, column in columns.items()]
+    labels = [name if table else argument_of(name) for name in columns]
+    numbers = [numbers_of(label, column) for label, column in zip(labels, columns.values())]
     sizes = [one.shape for one in numbers]
     if any(one.ndim != 1 for one in numbers) or len(set(sizes)) != 1:
-        given = ", ".join(f"{name} {size}" for name, size in zip(columns, sizes))
-        raise InputError(f"columns must be one-dimensional and of equal length, but are {given}")
+        given = ", ".join(f"{label} {size}" for label, size in zip(labels, sizes))
+        raise InputError(f"arrays must be one-dimensional and of equal length, but are {given}")
     _expect_same_rows(columns)
     radius = x_unit is not None and x_unit.endswith("radius")
     said = "".join(f"# {key}: {value}\n" for key, value in (metadata or {}).items())
@@ -158,6 +165,7 @@ def stream(x: npt.ArrayLike | Mapping[str, npt.ArrayLike], c: npt.ArrayLike | No
                            nominal_radius_mm, drop_invalid, list(sensor_angles_deg))
     if not made.x_said and not is_face and x_unit is None:
         raise InputError("say what X_M is: name the column X_M[mm dia], or metadata={'x_convention': 'radius'}")
+    made_of_table[made] = table
     return made
 
 

@@ -178,13 +178,19 @@ def frozen(json: Any, k: float = 2.0) -> Any:
     return Node({name: frozen(value, k) for name, value in json.items()})
 
 
-def quantities(tree: Any, name: str = "") -> Iterator[tuple[str, Quantity]]:
-    """Yields every quantity of a result with its dotted name."""
+def _of(tree: Any) -> str:
+    """What an entry of a list is of, by the key that says so: ``"noise of the readings"`` of a budget's line."""
+    said = [tree[key] for key in ("source", "effect", "reference", "name", "plan") if isinstance(tree, Node) and key in tree]
+    return said[0] if said and isinstance(said[0], str) else ""
+
+
+def quantities(tree: Any, name: str = "", of: str = "") -> Iterator[tuple[str, Quantity, str]]:
+    """Yields every quantity of a result with its dotted name and what the entry of a list that it is in is of."""
     if isinstance(tree, Quantity):
-        yield name, tree
+        yield name, tree, of
     elif isinstance(tree, Node):
         for key in tree:
-            yield from quantities(tree[key], f"{name}.{key}" if name else key)
+            yield from quantities(tree[key], f"{name}.{key}" if name else key, of)
     elif isinstance(tree, tuple):
         for i, value in enumerate(tree):
-            yield from quantities(value, f"{name}.{i}")
+            yield from quantities(value, f"{name}.{i}", _of(value) or of)

@@ -215,7 +215,12 @@ class Unresolved {
   std::map<std::string, bool> resolved_;
 };
 
+/// A picometre: what is smaller with its u is rounding, such as RONp about the circle around it,
+/// which is 0 by its definition.
+constexpr double rounding = 1e-9;
+
 Estimate estimate_of(const NamedValue& value, const Spread& spread, bool unresolved) {
+  if (std::abs(value.value) < rounding && spread.u < rounding) return {0.0, 0.0, value.unit, ""};
   if (!unresolved) return {value.value, spread.u, value.unit, ""};
   return {.unit = value.unit,
           .why_not = "no form beyond the noise",

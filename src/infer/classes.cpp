@@ -74,11 +74,12 @@ Class distinguish(const Eigen::MatrixXd& gram, const Columns& others, const Proj
     Rival rival;
     rival.effect = c.effect;
     rival.distance = std::sqrt(left2 / variance);
-    rival.likelihood_ratio =
+    const double twice_log_ratio =
         freedom * std::log(std::max(beside.rss - c.gain, 1e-300) / (beside.rss - best.gain)) +
         2.0 * (static_cast<double>(c.rank) - static_cast<double>(best.rank));
+    rival.log_likelihood_ratio = 0.5 * twice_log_ratio;
     rival.structural = all2 > 0.0 && 1.0 - left2 / all2 > structural * structural;
-    if (rival.distance < told_apart || rival.likelihood_ratio < likelihood_tells)
+    if (rival.distance < told_apart || twice_log_ratio < likelihood_tells)
       out.members.push_back({k, rival});
     else if (left2 < unlike * all2)
       out.dropped.push_back({k, 0.0, true});

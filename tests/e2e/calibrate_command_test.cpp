@@ -94,7 +94,7 @@ TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
       command(line({"machine diagnose", ball_, "--machine", machine_, "--json d.json -o e.toml"}));
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("d.json");
-  EXPECT_EQ(json["schema"], "trueaxis.machine_diagnosis/1");
+  EXPECT_EQ(json["schema"], "trueaxis.machine_diagnosis/2");
   EXPECT_EQ(json["verdict"], "effects");
   ASSERT_EQ(json["findings"].size(), 1U) << json["findings"].dump(1);
   const nlohmann::json& finding = json["findings"][0];

@@ -134,7 +134,7 @@ TEST_F(RunCommand, EachReferenceHasItsDiagnosis) {
   ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
   ASSERT_EQ(command("diagnose part.csv --surface cylinder --json alone.json").exit_code, 0);
   json of_job = result("out/diagnosis_1_cylinder.json"), alone = result("alone.json");
-  EXPECT_EQ(of_job.at("schema"), "trueaxis.diagnosis/2");
+  EXPECT_EQ(of_job.at("schema"), "trueaxis.diagnosis/3");
   for (json* diagnosis : {&of_job, &alone}) {  // the job names its stream by another path
     diagnosis->at("input").erase("file");
     for (const char* fit : {"baseline", "extended"}) diagnosis->at(fit).at("input").erase("file");

@@ -153,12 +153,12 @@ TEST_F(SimulateFrom, RefusesWhatDoesNotBelongTogether) {
   expect_input_error("simulate --from d.json --diameter --compare", "correct one");
   expect_input_error("simulate --from d.json --ball-radius-mm 2 --compare", "--diameter");
   expect_input_error("simulate --from gone.json --compare", "gone.json: cannot be read");
-  expect_input_error("simulate --from part.csv --compare", "trueaxis.diagnosis/2");
+  expect_input_error("simulate --from part.csv --compare", "trueaxis.diagnosis/3");
   file("empty.json", "{}");
-  expect_input_error("simulate --from empty.json --compare", "trueaxis.diagnosis/2");
+  expect_input_error("simulate --from empty.json --compare", "trueaxis.diagnosis/3");
   ASSERT_EQ(command("fit part.csv --surface cylinder --json fit.json").exit_code, 0);
   expect_input_error("simulate --from fit.json --compare",
-                     "its schema is not trueaxis.diagnosis/2");
+                     "its schema is not trueaxis.diagnosis/3");
   json open = result("d.json");
   open.at("named").at("status") = "rank_deficient";
   file("open.json", open.dump());

@@ -36,7 +36,7 @@ void expect_quantities(const json& at, const std::string& where) {
 
 TEST(DiagnosisJson, HasTheFieldsOfTheSchema) {
   const json d = written(example::cone_diagnosis());
-  EXPECT_EQ(d.at("schema"), "trueaxis.diagnosis/2");
+  EXPECT_EQ(d.at("schema"), "trueaxis.diagnosis/3");
   EXPECT_EQ(d.at("verdict"), "unexplained");
   EXPECT_EQ(d.at("input").at("hash"), "xxh3-64:0123456789abcdef");
   EXPECT_EQ(d.at("baseline").at("schema"), "trueaxis.fit/1");

@@ -8,7 +8,7 @@
 
 namespace trueaxis {
 
-/// Schema trueaxis.machine_diagnosis/1, keys as those of trueaxis.diagnosis: lengths in mm, angles
+/// Schema trueaxis.machine_diagnosis/2, keys as those of trueaxis.diagnosis: lengths in mm, angles
 /// in degrees, each with its unit; a number that is not there is null next to the reason.
 Json machine_diagnosis_object(const MachineDiagnosis& diagnosis, const Machine& machine);
 std::string machine_diagnosis_json(const MachineDiagnosis& diagnosis, const Machine& machine);

@@ -149,7 +149,7 @@ std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& mac
 
 Json machine_diagnosis_object(const MachineDiagnosis& d, const Machine& machine) {
   Json json{
-      {"schema", "trueaxis.machine_diagnosis/1"},
+      {"schema", "trueaxis.machine_diagnosis/2"},
       {"version", TRUEAXIS_VERSION},
       {"machine", machine.name},
       {"inputs", inputs_json(d.baseline)},

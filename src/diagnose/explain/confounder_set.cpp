@@ -107,14 +107,14 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
   return out;
 }
 
-void narrow(ConfounderSet& found, double likelihood_ratio) {
+void narrow(ConfounderSet& found, double twice_log_ratio) {
   const Effect& named = *found.members.front().hypothesis.effect;
   const auto at = std::ranges::find(found.rivals, named.second_order_twin, &Rival::effect);
   if (at == found.rivals.end()) return;
   const double both = found.probability + at->probability;
-  const double other = both / (1.0 + std::exp(0.5 * likelihood_ratio));
-  at->likelihood_ratio = likelihood_ratio;
-  if (likelihood_ratio < likelihood_tells) {
+  const double other = both / (1.0 + std::exp(0.5 * twice_log_ratio));
+  at->log_likelihood_ratio = 0.5 * twice_log_ratio;
+  if (twice_log_ratio < likelihood_tells) {
     found.probability = both - other;
     at->probability = other;
     return;

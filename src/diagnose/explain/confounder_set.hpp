@@ -36,7 +36,7 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
                           int threads);
 
 /// The class of one of two effects that are one in the first order with what the second order says:
-/// −2 ln of the likelihood of the other over that of the named one (Eq. 94).
-void narrow(ConfounderSet& found, double likelihood_ratio);
+/// 2 ln of the likelihood of the named one over that of the other (Eq. 94).
+void narrow(ConfounderSet& found, double twice_log_ratio);
 
 }  // namespace trueaxis::diagnose_detail

@@ -112,7 +112,7 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
     }
     if (!has_class(model.terms[t], fit.problem())) continue;
     ConfounderSet found = classes[t];
-    if (timing && timing->term == t) narrow(found, timing->likelihood_ratio);
+    if (timing && timing->term == t) narrow(found, timing->twice_log_ratio);
     out.findings.push_back(finding_of(fit.problem(), model, joint, found, t));
     if (!fit.problem().point.base.face)
       add_improbable(fit.problem(), joint, found, t, out.improbable);

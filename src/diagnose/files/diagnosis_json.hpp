@@ -11,12 +11,12 @@
 
 namespace trueaxis {
 
-/// Schema trueaxis.diagnosis/2: lengths in mm, angles in degrees, times in s, each with its unit; a
+/// Schema trueaxis.diagnosis/3: lengths in mm, angles in degrees, times in s, each with its unit; a
 /// number that is not there is null next to the reason. `findings[].term` and `unexplained[].term`
 /// hold what was found as numbers, over u = (z − z_mid)/z_half of `u_frame`.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
-inline constexpr const char* diagnosis_schema = "trueaxis.diagnosis/2";
+inline constexpr const char* diagnosis_schema = "trueaxis.diagnosis/3";
 
 /// The diagnosis as an object.
 Json diagnosis_object(const Diagnosis& diagnosis);
@@ -58,7 +58,7 @@ TermValue pattern_term_from(const Json& json);
 /// `fit_from_object` has them, u's frame, causes and patterns with their classes. Also shares of
 /// the axis, what cannot be seen, the measurements, noise and excluded rows. @param path of the
 /// text, for messages @param own_effects that it was made with; they outlive the result @throws
-/// InputError if the schema of the text is not trueaxis.diagnosis/2, or it names an effect that
+/// InputError if the schema of the text is not trueaxis.diagnosis/3, or it names an effect that
 /// neither the catalogue nor `own_effects` has.
 Diagnosis diagnosis_from_json(std::string_view text, const std::string& path,
                               std::span<const Effect> own_effects = {});

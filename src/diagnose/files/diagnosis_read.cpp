@@ -22,7 +22,7 @@ Finding finding_from(const Json& json, std::span<const Effect> own_effects) {
   finding.term = effect_term_from(json.at("effect"), json.at("term"), own_effects);
   for (const Json& rival : json.at("rivals")) {
     finding.rivals.push_back({rival.at("effect"), number_from(rival.at("distance")),
-                              number_from(rival.at("likelihood_ratio")),
+                              number_from(rival.at("log_likelihood_ratio")),
                               number_from(rival.at("probability")), rival.at("structural")});
   }
   for (const auto& [name, estimate] : json.at("parameters").items())

@@ -61,7 +61,7 @@ class RelinearisedFit {
 /// better of the two.
 struct Timing {
   std::size_t term = 0;
-  double likelihood_ratio = 0.0;  ///< −2 ln of the other's likelihood over its own
+  double twice_log_ratio = 0.0;  ///< 2 ln of its likelihood over the other's
 };
 
 /// The last fit; `model` is changed where the other of lag and delay does better.

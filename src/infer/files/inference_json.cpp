@@ -12,7 +12,7 @@ Json interval(const Interval& i, const char* unit) {
 Json rival_object(const Rival& rival) {
   return {{"effect", rival.effect},
           {"distance", number(rival.distance)},
-          {"likelihood_ratio", number(rival.likelihood_ratio)},
+          {"log_likelihood_ratio", number(rival.log_likelihood_ratio)},
           {"probability", number(rival.probability)},
           {"structural", rival.structural}};
 }

@@ -77,6 +77,8 @@ struct MistakenUnit {
   CsvRole column;
   const char* advice;
 };
+constexpr const char* milliseconds = "t looks like milliseconds: write t[ms]";
+constexpr const char* seconds = "t looks like seconds: write t[s]";
 constexpr MistakenUnit mistaken_units[] = {
     {rad_per_deg, CsvRole::angle, "C looks like radians: write C[rad]"},
     {1.0 / rad_per_deg, CsvRole::angle, "C looks like degrees: write C[deg]"},
@@ -84,33 +86,62 @@ constexpr MistakenUnit mistaken_units[] = {
     {two_pi / rad_per_deg, CsvRole::angle, "C looks like degrees: write C[deg]"},
     {1.0 / two_pi, CsvRole::angle, "C looks like turns: write C[rev]"},
     {two_pi, CsvRole::angle, "C looks like radians: write C[rad]"},
-    {1e-3, CsvRole::time, "t looks like milliseconds: write t[ms]"},
-    {1e3, CsvRole::time, "t looks like seconds: write t[s]"}};
+    {1e-3, CsvRole::time, milliseconds},
+    {1e3, CsvRole::time, seconds}};
 
-/// The speed that C and t give is that of `spindle_rpm` times what one unit is in another: one of
-/// them is not what its header says. The usual step tells, so that neither a dwell nor a second
-/// speed does.
-void refuse_mistaken_unit(const CsvHeader& header, const ProbeStream& stream,
-                          CsvDiagnostics& diagnostics) {
-  constexpr double alike = 0.02;               // a spindle keeps its speed to 2 %
-  constexpr std::size_t enough_steps = 10000;  // for a median
-  if (!stream.spindle_rpm || *stream.spindle_rpm == 0.0 || stream.time_s.empty()) return;
-  std::vector<double> speeds_rad_per_s;
+/// The speeds from reading to reading while C turns, in ascending order.
+std::vector<double> speeds_rpm(const ProbeStream& stream) {
+  constexpr std::size_t enough_steps = 10000;  // for a quantile
+  std::vector<double> speeds;
+  if (stream.time_s.empty()) return speeds;
   for (std::size_t i = 1; i < stream.size(); i += 1 + stream.size() / enough_steps) {
     const double turned_rad = std::abs(stream.c_rad[i] - stream.c_rad[i - 1]);
     const double passed_s = stream.time_s[i] - stream.time_s[i - 1];
-    if (turned_rad > 0.0 && passed_s > 0.0) speeds_rad_per_s.push_back(turned_rad / passed_s);
+    if (turned_rad > 0.0 && passed_s > 0.0) speeds.push_back(turned_rad / passed_s * 60.0 / two_pi);
   }
-  if (speeds_rad_per_s.empty()) return;
-  const double rpm = median(std::move(speeds_rad_per_s)) * 60.0 / two_pi;
-  const double said_rpm = std::abs(*stream.spindle_rpm);
+  std::ranges::sort(speeds);
+  return speeds;
+}
+
+/// Refuses speeds at which no lathe measures, unless the stream states its own: milliseconds read
+/// as seconds make 0.06 rpm of 60, and seconds read as milliseconds 60 000. One reading in twenty
+/// may be faster or slower, as if a spindle rests most of the time.
+void refuse_impossible_speed(const CsvHeader& header, const ProbeStream& stream,
+                             const std::vector<double>& speeds, CsvDiagnostics& diagnostics) {
+  constexpr double slowest_rpm = 0.1, fastest_rpm = 1e4;
+  const std::size_t few = speeds.size() / 20;
+  const double low_rpm = speeds[few], high_rpm = speeds[speeds.size() - 1 - few];
+  const bool slow = high_rpm < slowest_rpm;
+  if (!slow && low_rpm <= fastest_rpm) return;
+  const CsvColumn& time = *header.find(CsvRole::time);
+  const double sense = stream.c_rad.back() < stream.c_rad.front() ? -1.0 : 1.0;
+  const double rpm = speeds[speeds.size() / 2];
+  diagnostics.add(header.line, time.character,
+                  fmt::format("C and t give {:.4g} rpm, {:.3g} s per revolution: {}. If the "
+                              "spindle really turns like that, write '# spindle_rpm: {:.4g}'",
+                              rpm, 60.0 / rpm,
+                              slow && time.unit.factor == 1.0     ? milliseconds
+                              : !slow && time.unit.factor == 1e-3 ? seconds
+                                                                  : "check the units of C and t",
+                              sense * rpm));
+}
+
+/// The usual speed that C and t give, which neither a dwell nor a second speed is, is that of
+/// `spindle_rpm` times what one unit is in another: one of them is not what its header says.
+void refuse_mistaken_unit(const CsvHeader& header, const ProbeStream& stream,
+                          CsvDiagnostics& diagnostics) {
+  constexpr double alike = 0.02;  // a spindle keeps its speed to 2 %
+  const std::vector<double> speeds = speeds_rpm(stream);
+  if (speeds.empty()) return;
+  if (!stream.spindle_rpm) return refuse_impossible_speed(header, stream, speeds, diagnostics);
+  const double rpm = median(speeds), said_rpm = std::abs(*stream.spindle_rpm);
+  if (said_rpm == 0.0) return;
   for (const auto& [factor, column, advice] : mistaken_units) {
     if (std::abs(rpm / said_rpm / factor - 1.0) > alike) continue;
-    diagnostics.add(
-        header.line, header.find(column)->character,
-        fmt::format("C and t give {:.4g} turns per minute, but spindle_rpm states {:.4g}: "
-                    "{}, or correct spindle_rpm",
-                    rpm, said_rpm, advice));
+    diagnostics.add(header.line, header.find(column)->character,
+                    fmt::format("C and t give {:.4g} rpm, but spindle_rpm states {:.4g}: "
+                                "{}, or correct spindle_rpm",
+                                rpm, said_rpm, advice));
     return;
   }
 }

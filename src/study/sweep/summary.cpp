@@ -115,6 +115,14 @@ void fill(Row& row, Sample sample) {
   row.ratio = row.rmse / row.bound;
 }
 
+/// Without noise every repeat is the same: it has an error, and neither spread nor coverage.
+void withhold_spread(Row& row) {
+  constexpr double rounding = 1e-12;  // of the true value, or of 1 mm or degree
+  row.u_bias = row.sd = row.q05 = row.q50 = row.q95 = row.mean_u = none;
+  row.coverage = {};
+  if (row.rmse < rounding * std::max(1.0, std::abs(row.truth))) row.bias = row.rmse = 0.0;
+}
+
 CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
   CellSummary cell;
   double found = 0.0, named = 0.0, looked = 0.0;
@@ -173,6 +181,8 @@ Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
       row.bound = i < facts.bound.sd.size() ? facts.bound.sd[i] : none;
       const Sample sample = sample_of(cells[cell], i);
       fill(row, sample);
+      if (facts.bound.missing == Bound::Missing::no_noise && sweep.drawn.empty())
+        withhold_spread(row);
       spread.push_back(i >= facts.bound_spread.size()
                            ? none
                            : mean_square_spread(sample.error) + facts.bound_spread[i]);

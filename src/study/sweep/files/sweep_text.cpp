@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.hpp"
 #include "format/text_layout.hpp"
 #include "study/sweep/files/sweep_results.hpp"
 
@@ -121,7 +122,7 @@ std::string without_result_text(const Sweep& sweep, const Summary& summary) {
 
 std::string sweep_text(const Sweep& sweep, const Summary& summary) {
   std::string text = (sweep.name.empty() ? "" : sweep.name + ": ") +
-                     format("{} cells, {} repeats each, seed {}\n", summary.cells.size(),
+                     format("{}, {} repeats each, seed {}\n", counted(summary.cells.size(), "cell"),
                             sweep.repeats, sweep.seed);
   text += summary.cells.size() <= cells_in_full ? full_text(sweep, summary)
                                                 : short_text(sweep, summary);

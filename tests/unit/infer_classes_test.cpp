@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "infer/classes.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::infer {
+namespace {
+
+// Readings y of one wave and of another that nearly is the same: with an unknown noise the
+// likelihood of a model that leaves the sum of squares S is proportional to S^(−f/2), and both have
+// one parameter.
+TEST(InferClasses, TheLogarithmOfTheLikelihoodRatioIsOfLeastSquaresWrittenOut) {
+  constexpr Eigen::Index n = 100;
+  Eigen::MatrixXd columns(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double c = two_pi * static_cast<double>(i) / n;
+    const double wave = std::cos(c), other = std::cos(c - 0.1);
+    columns.row(i) << 2.0 * wave + std::cos(7.0 * c) + 0.3 * std::sin(c), wave, other;
+  }
+  const auto left = [&](Eigen::Index column) {
+    const Eigen::VectorXd y = columns.col(0), x = columns.col(column);
+    return (y - x * (x.dot(y) / x.squaredNorm())).squaredNorm();
+  };
+  const Eigen::MatrixXd gram = columns.transpose() * columns;
+  const Projection beside = project(gram, {});
+  const Score named = score(beside, {1}), other = score(beside, {2});
+  const Eigen::VectorXd coefficient = Eigen::VectorXd::Constant(1, gram(1, 0) / gram(1, 1));
+  constexpr double freedom = n - 1, variance = 1.0;
+  const Cause rival{"the other", {2}, other.gain, other.rank, 0.0};
+  const Class found =
+      distinguish(gram, {}, beside, {{1}, coefficient, 0.0}, {&rival, 1}, variance, freedom);
+  ASSERT_EQ(named.rank, other.rank);
+  ASSERT_EQ(found.members.size(), 1U);
+  const double expected = -0.5 * freedom * std::log(left(1) / left(2));
+  ASSERT_GT(std::abs(expected), 0.1);
+  // Gram matrix and columns differ by the rounding of n products, of a sum of squares of 100.
+  EXPECT_NEAR(found.members.front().rival.log_likelihood_ratio, expected, 1e-10);
+}
+
+}  // namespace
+}  // namespace trueaxis::infer
