@@ -51,6 +51,7 @@ struct TermShape {
   double time_constant_s = 600.0;  ///< of thermal.drift; of probe.lag the T to linearise at
   double onset_s = 0.0;            ///< instant of a slip, or its start
   double duration_s = 0.0;         ///< of a slip; 0: it is a step
+  double settling_s = 0.0;         ///< time constant τ of a slip that dies out; 0: it is even
   double reference_x_mm = 0.0;     ///< X_ref of the sensor
   double range_mm = 1.0;           ///< that v of probe.nonlinearity is 1 at
   double play_mm = 0.0;            ///< of probe.hysteresis: the play to linearise at
@@ -107,9 +108,9 @@ struct PeriodicInTime {};
 /// t and 1 − exp(−t/τ), in X (Eq. 45).
 struct GrowthInTime {};
 
-/// At an instant, or evenly over a duration, the part moved, turned, tilted, and changed its radius
-/// and taper (Eq. 46); `seat`: moved along Z and tilted (Eq. 136). The surface is where it is
-/// afterwards.
+/// At an instant, or over a duration, evenly or as exp(−t/τ), the part moved, turned, tilted, and
+/// changed its radius and taper (Eq. 46); `seat`: moved along Z and tilted (Eq. 136). The surface
+/// is where it is afterwards.
 struct PartStep {
   bool seat = false;
 };

@@ -64,6 +64,7 @@ double TermShape::*place_of(std::string_view name) {
       {"time_constant_s", &TermShape::time_constant_s},
       {"onset_s", &TermShape::onset_s},
       {"duration_s", &TermShape::duration_s},
+      {"settling_s", &TermShape::settling_s},
       {"reference_x_mm", &TermShape::reference_x_mm},
       {"range_mm", &TermShape::range_mm},
       {"play_mm", &TermShape::play_mm}};

@@ -146,6 +146,42 @@ std::vector<Effect> part_roundness() {
                   .tests = 43},
        .refinement = Refinement{&TermShape::onset_s, By::duration},
        .names_in_lathe = {{"onset", "time"}}},
+      {.id = "part.creep",
+       .title = "the part creeps in the chuck",
+       .slot = Slot::part,
+       .frame = EffectFrame::time,
+       .term = PartStep{},
+       .formula = "from the first reading to the last, as 1 - exp(-t/tau): axis point + (dx, dy), "
+                  "axis tilted by (tilt_x, tilt_y) about the middle of the probed length",
+       .parameters = {{"dx", "mm", 1e-3, 0.02, "along x of the spindle frame"},
+                      {"dy", "mm", 1e-3, 0.02, "along y"},
+                      {"tilt_x", "rad", 1e-6, 1e-4, "tilt of the axis towards x"},
+                      {"tilt_y", "rad", 1e-6, 1e-4, "towards y"},
+                      {"onset", "s", 0, 0, "the first reading", "onset_s"},
+                      {"duration", "s", 0, 0, "to the last", "duration_s"},
+                      {"settling", "s", 10, 600, "tau; none: it goes on evenly", "settling_s"}},
+       .signature = "amplitude and phase of 1 undulation per revolution go on with time, fast at "
+                    "first",
+       .consequence = "let the part rest after it is clamped, or cool, and probe again",
+       .confounders = {"part.bow", "part.slip"},
+       .absorbed_by = "the tilt of the axis, in a single pass",
+       .separations = {{"RZ", "on the way back it goes on, a bent part reads the same again"},
+                       {"DW", "it goes on at constant Z"}},
+       .axis_bias =
+           AxisBias{0.78, "mm/mm", "tau a third of the pass: 0.78 of what it moves in all"},
+       .source = "relaxation of a clamped or warm part",
+       .needs = {.time = true, .stream = StreamKind::lateral},
+       .typical = {{&TermShape::onset_s, {0.0}, ShapeValues::In::instant},
+                   {&TermShape::duration_s, {1.0}, ShapeValues::In::duration}},
+       .search = {.forms = {{{0, 1}},
+                            {{0, 1},
+                             {&TermShape::settling_s, {0.1, 0.25, 0.6}, ShapeValues::In::duration}},
+                            {{0, 1, 3, 4},
+                             {&TermShape::settling_s, {0.1, 0.25, 0.6}, ShapeValues::In::duration},
+                             1}},
+                  .tests = 129},  // as rare as a slip of one date each
+       .refinement = Refinement{.parameter = &TermShape::settling_s, .range = 6.0},
+       .names_in_lathe = {{"onset", "time"}}},
   };
 }
 

@@ -40,7 +40,10 @@ void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) 
 double missing_of(const TermShape& shape, double time_s) {
   const double since = time_s - shape.onset_s;
   if (since >= shape.duration_s) return 0.0;
-  return since < 0.0 ? -1.0 : since / shape.duration_s - 1.0;
+  if (since < 0.0) return -1.0;
+  const double left = shape.duration_s - since, tau = shape.settling_s;
+  if (!(tau > 0.0)) return -left / shape.duration_s;
+  return std::exp(-since / tau) * std::expm1(-left / tau) / -std::expm1(-shape.duration_s / tau);
 }
 
 // A face whose axis tilts towards x falls there: Z = c − slope · (x, y).
@@ -223,7 +226,8 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
 
 Parameters parameters(const PartStep& term, const TermShape&) {
   if (term.seat)
-    return {{{"dz", "mm"}, {"tilt_x", "rad"}, {"tilt_y", "rad"}}, {"onset_s", "duration_s"}};
+    return {{{"dz", "mm"}, {"tilt_x", "rad"}, {"tilt_y", "rad"}},
+            {"onset_s", "duration_s", "settling_s"}};
   return {{{"dx", "mm"},
            {"dy", "mm"},
            {"turn", "rad"},
@@ -231,7 +235,7 @@ Parameters parameters(const PartStep& term, const TermShape&) {
            {"tilt_y", "rad"},
            {"dr", "mm"},
            {"taper", "rad"}},
-          {"onset_s", "duration_s"}};
+          {"onset_s", "duration_s", "settling_s"}};
 }
 
 // A part that moved along x and y of the spindle frame is met at X = f(Y − b, Z) + a with a, b the

@@ -63,15 +63,26 @@ Reason slipped(std::size_t i, const Finding& finding, double k, ReasonCode code)
   return reason;
 }
 
-/// As a rival cause of another name.
-std::optional<Reason> possible(const Diagnosis& diagnosis, std::size_t i, const Finding& finding) {
+constexpr Threshold may_have_moved{"probability", nonconformity_risk, "1",
+                                   "the risk that a verdict takes; U holds what is less probable"};
+constexpr Threshold of_slip[] = {may_have_moved};
+
+/// That it is a part that moved, if another cause is named.
+double moved_instead(const Diagnosis& diagnosis, const Finding& finding) {
+  double probability = 0.0;
   for (const Rival& rival : finding.rivals)
-    if (is_slip(diagnosis, rival.effect))
-      return Reason{ReasonCode::part_may_have_slipped,
-                    {i},
-                    {{"probability", rival.probability}},
-                    {{"effect", finding.effect()}}};
-  return {};
+    if (is_slip(diagnosis, rival.effect)) probability += rival.probability;
+  return probability;
+}
+
+/// As rival causes of another name.
+std::optional<Reason> possible(const Diagnosis& diagnosis, std::size_t i, const Finding& finding) {
+  const double probability = moved_instead(diagnosis, finding);
+  if (probability < may_have_moved.value) return {};
+  return Reason{ReasonCode::part_may_have_slipped,
+                {i},
+                {{"probability", probability}},
+                {{"effect", finding.effect()}}};
 }
 
 Reasons find_unsure_slip(const CheckInput& in) {
@@ -93,8 +104,14 @@ Reasons find_unsure_slip(const CheckInput& in) {
 
 }  // namespace
 
-constinit const JobCheck part_slipped{
-    "part_slipped", CheckedAt::references, Weight::forbids, {}, find_unsure_slip};
+constinit const JobCheck part_slipped{"part_slipped", CheckedAt::references, Weight::forbids,
+                                      of_slip, find_unsure_slip};
+
+bool is_likely_slip(const Diagnosis& diagnosis) {
+  return std::ranges::any_of(diagnosis.findings, [&](const Finding& finding) {
+    return is_slip(diagnosis, finding.effect()) || moved_instead(diagnosis, finding) > 0.5;
+  });
+}
 
 bool is_sure_slip(const Diagnosis& diagnosis) {
   const Finding* slip = diagnosis.slip();

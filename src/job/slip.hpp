@@ -19,4 +19,7 @@ Reasons moved_part(const IdentifiedJob& job);
 /// reading tells.
 bool is_sure_slip(const Diagnosis& diagnosis);
 
+/// Whether the part moved, more likely than not.
+bool is_likely_slip(const Diagnosis& diagnosis);
+
 }  // namespace trueaxis

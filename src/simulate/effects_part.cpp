@@ -100,6 +100,31 @@ constexpr EffectEntry part_table[] = {
          state.part_x_mm += share * (dr + taper * (state.at.position_mm - middle));
        })(of, chain);
      }},
+    {"part.creep",
+     "the part moves in the chuck as 1 - exp(-t/settling) from a time on; 'ends' 1: the part is "
+     "described as it is after 'duration'",
+     {{"settling_s", {}},
+      {"time_s", 0.0},
+      {"dx_mm", 0.0},
+      {"dy_mm", 0.0},
+      {"tilt_x_rad", 0.0},
+      {"tilt_y_rad", 0.0},
+      {"middle_mm", 0.0},
+      {"ends", 0.0},
+      {"duration_s", 1e9}},
+     in<&Chain::step>([](double t, double settling, double from, double dx, double dy,
+                         double tilt_x, double tilt_y, double middle, double ends,
+                         double duration) {
+       const auto relaxed = [&](double since) { return 1.0 - std::exp(-since / settling); };
+       const double whole = relaxed(duration);
+       const double share = relaxed(std::max(0.0, t - from)) / whole - (ends > 0.5 ? 1.0 : 0.0);
+       return PartStep{share * (dx - middle * tilt_x),
+                       share * (dy - middle * tilt_y),
+                       0.0,
+                       0.0,
+                       share * tilt_x,
+                       share * tilt_y};
+     })},
     // Material is missing over a sector: a keyway, a hole, a groove.
     {"part.interruption",
      "material missing over a sector",

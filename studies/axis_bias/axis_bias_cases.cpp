@@ -120,7 +120,9 @@ std::vector<AxisBiasCase> part_cases(const Where& at) {
       bow_from_the_end(at),
       mm("part.slip", "radial, half-way", {.onset_s = half_way}, {0, 1}),
       mm("part.slip", "radial, at two thirds", {.onset_s = 2.0 / 3.0 * at.duration_s}, {0, 1}),
-      angle(mm("part.slip", "rotational, half-way", {.onset_s = half_way}, {2}))};
+      angle(mm("part.slip", "rotational, half-way", {.onset_s = half_way}, {2})),
+      mm("part.creep", "radial, tau a third of the pass",
+         {.duration_s = at.duration_s, .settling_s = at.duration_s / 3.0}, {0, 1})};
   if (!at.cone) out.push_back(mm("part.taper", ""));
   return out;
 }

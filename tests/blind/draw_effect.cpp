@@ -88,6 +88,13 @@ Effect draw_part(std::string_view id, const Bench& bench, Draw& draw) {
              {"dy_mm", 0.2 * std::sin(at)},
              {"turn_rad", 0.0}}};
   }
+  if (id == "part.creep") {
+    const double at = draw.phase();
+    return {"part.creep",
+            {{"settling_s", draw.log_between(0.1, 0.6) * duration_s(bench.scenario().plan)},
+             {"dx_mm", 0.02 * std::cos(at)},
+             {"dy_mm", 0.02 * std::sin(at)}}};
+  }
   return {std::string(id), {}};
 }
 

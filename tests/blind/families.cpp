@@ -101,6 +101,7 @@ const std::vector<Family>& tabled() {
       {"encoder.eccentricity", {{"amplitude_rad", 9.7e-5}}},
       {"thermal.drift", {{"rate_mm_per_s", 0.01 / 600.0}, {"amplitude_mm", 0.01}}},
       {"environment.vibration", {{"amplitude_mm", 0.005}}},
+      {"part.creep", {{"dx_mm", 0.02}, {"dy_mm", 0.02}}},
   };
   return list;
 }
@@ -189,6 +190,7 @@ std::vector<Effect> directions(const Effect& shaped) {
     return {only(shaped, {{"dx_mm", um}}), only(shaped, {{"dy_mm", um}}),
             only(shaped, {{"turn_rad", 1e-3}})};
   }
+  if (id == "part.creep") return {only(shaped, {{"dx_mm", um}}), only(shaped, {{"dy_mm", um}})};
   if (id == "slide.z_straightness") return straightness(only(shaped, {{"amplitude_mm", um}}));
   if (id == "slide.backlash") {
     return {only(shaped, {{"along_mm", um}}), only(shaped, {{"across_mm", um}})};

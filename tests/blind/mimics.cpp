@@ -150,6 +150,12 @@ std::vector<Effect> mimics(const Bench& bench, const std::string& id, const Resi
     return each(id, scan(bench.plain(), two_pi / 5.0, two_pi / 0.02), "period_mm", period);
   }
   if (id == "part.slip") return instants(bench, of);
+  if (id == "part.creep") {
+    std::vector<Effect> list;
+    for (const double share : {0.1, 0.25, 0.6, 1.5})
+      list.push_back({id, {{"settling_s", share * bench.time_s().maxCoeff()}}});
+    return list;
+  }
   if (id == "part.bow") {
     return {{id, {{"length_mm", end_mm - start_mm}, {"middle_mm", 0.5 * (start_mm + end_mm)}}}};
   }

@@ -32,6 +32,7 @@ std::optional<Refinement> refinement(const Bench& bench, const Effect& shaped) {
   if (id == "probe.cyclic") return of_period("period_mm", bench.plain());
   if (id == "part.chuck_lobing") return Refinement{"decay_length_mm", 6.0, true};
   if (id == "thermal.drift") return Refinement{"time_constant_s", 2.5, true};
+  if (id == "part.creep") return Refinement{"settling_s", 2.5, true};
   if (id == "part.slip") {
     return Refinement{"time_s", bench.time_s().maxCoeff() / 120.0, false};
   }

@@ -121,6 +121,26 @@ inline std::vector<LatheCase> lateral_lathe_cases() {
        },
        {.onset_s = 12.345},
        {0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.01}},
+      {"part.creep",
+       1e-3,
+       [](double a) {
+         return Parameters{{"duration_s", 60.0},
+                           {"settling_s", 14.0},
+                           {"dx_mm", a},
+                           {"dy_mm", -0.5 * a},
+                           {"ends", 1}};
+       },
+       {.onset_s = 0.0, .duration_s = 60.0, .settling_s = 14.0},
+       {1.0, -0.5, 0.0, 0.0, 0.0, 0.0, 0.0}},
+      {"part.creep",
+       1e-3,
+       [](double a) {
+         return Parameters{{"duration_s", 60.0},     {"settling_s", 14.0},
+                           {"tilt_x_rad", 0.02 * a}, {"tilt_y_rad", -0.01 * a},
+                           {"middle_mm", 5},         {"ends", 1}};
+       },
+       {.onset_s = 0.0, .duration_s = 60.0, .settling_s = 14.0},
+       {0.0, 0.0, 0.0, 0.02, -0.01, 0.0, 0.0}},
       {"spindle.radial_synchronous",
        1e-3,
        [](double a) {

@@ -162,16 +162,18 @@ void add_slips(Group group, Draw& draw, Drawn& out) {
   if (group == Group::creeping_slip) {
     constexpr int steps = 40;
     const double size = draw.log_between(0.02, 0.1), at = draw.phase();
-    const double from = draw.between(0.05, 0.75);
-    const auto law = draw.whole(0, 3);
+    const auto law = draw.whole(0, 4);
+    const bool all_along = law == 4;  // from the first reading to the last, dying out
+    const double from = all_along ? 0.0 : draw.between(0.05, 0.75), lasts = all_along ? 1.0 : 0.2;
+    const double rate = all_along ? draw.between(2.0, 8.0) : 4.0;
     double before = 0.0;
     for (int i = 1; i <= steps; ++i) {
       const double u = static_cast<double>(i) / steps;
       const double done = law == 0   ? u
                           : law == 1 ? u * u * (3.0 - 2.0 * u)
-                          : law == 2 ? std::expm1(-4.0 * u) / std::expm1(-4.0)
-                                     : std::floor(4.0 * u) / 4.0;
-      if (done > before) add(size * (done - before), at, 0.0, from + 0.2 * (u - 0.5 / steps));
+                          : law == 3 ? std::floor(4.0 * u) / 4.0
+                                     : std::expm1(-rate * u) / std::expm1(-rate);
+      if (done > before) add(size * (done - before), at, 0.0, from + lasts * (u - 0.5 / steps));
       before = done;
     }
     return;

@@ -39,7 +39,8 @@ std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypo
   std::erase_if(list, [&](const Hypothesis& h) {
     const Effect& effect = *h.effect;
     const auto is_it = [&](const Hypothesis& other) { return other.effect == &effect; };
-    if (has_free_order(effect) || effect.same_in_cut || std::ranges::any_of(terms, is_it))
+    if (has_free_order(effect) || is_step(effect.term) || effect.same_in_cut ||
+        std::ranges::any_of(terms, is_it))
       return true;
     if (effect.stated) return effect.stated->u == 0.0;
     return std::ranges::any_of(findings, [&](const AmbiguousFinding& f) {

@@ -259,7 +259,7 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
       }
     }
   });
-  if (h.shape.duration_s > 0.0)  // about its middle
+  if (r.by == Refinement::By::duration && h.shape.duration_s > 0.0)  // about its middle
     vary([&](Hypothesis& o, double d) {
       double& lasts = o.shape.duration_s;
       const double middle = o.shape.onset_s + 0.5 * lasts;

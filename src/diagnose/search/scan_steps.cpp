@@ -237,7 +237,7 @@ std::vector<Hypothesis> scan_steps(const Problem& problem, const std::vector<dou
   std::vector<Hypothesis> out;
   tests = 0.0;
   for (const Effect* effect : problem.effects) {
-    if (!is_step(effect->term)) continue;
+    if (!is_step(effect->term) || effect->search.when != SearchRange::When::scanned) continue;
     // Twice as long, half as many dates: those that last are as many again.
     tests += 2.0 * effect->search.tests * static_cast<double>(effect->search.forms.size());
     for (Hypothesis& h : dated(problem, phi, terms, *effect)) out.push_back(std::move(h));
