@@ -63,7 +63,7 @@ def test_an_option_is_an_argument():
     assert 'surface="section"' in message(lambda: ta.fit(x, c, surface="cylinder", x_unit="mm radius", c_unit="rad"))
     for text, said in (("50 UPR (--upr 1-10)", "50 UPR (band_upr=(1, 10))"), ("use --force", "use force=True"),
                        ("`trueaxis fit A --surface cone` or --nominal-radius-mm 3", "`trueaxis fit A --surface cone` or nominal_radius_mm=3")):
-        assert in_python(text, None, "") == in_python(said, None, "") == said
+        assert in_python(text, None) == in_python(said, None) == said
 
 
 def test_a_file_has_the_arguments_that_read_it(tmp_path):
@@ -73,7 +73,7 @@ def test_a_file_has_the_arguments_that_read_it(tmp_path):
     text = message(lambda: ta.fit(path, surface="cylinder"))
     assert text.splitlines()[-1] == f'{path}: the arguments that would read it: columns="X=3,C=1,Z=2"'
     said = "the command that would read it: trueaxis import 'a b.csv' --columns 'X=1[mm],C=2' --skip 3 -o a_stream.csv --diameter (or --radius)"
-    assert in_python(said, None, "") == 'the arguments that would read it: columns="X=1[mm],C=2", skip=3, x="diameter" (or x="radius")'
+    assert in_python(said, None) == 'the arguments that would read it: columns="X=1[mm],C=2", skip=3, x="diameter" (or x="radius")'
 
 
 def test_a_table_whose_names_say_nothing_is_asked_for_its_columns():
@@ -116,6 +116,19 @@ def test_a_dictionary_has_its_keys(document, place):
     for call in (lambda: ta.simulate(document), lambda: ta.plan(document, goal_um=1.0)):
         text = message(call)
         assert text.startswith(place) and ".toml" not in text
+
+
+def test_a_point_has_its_index_and_an_element_its_argument():
+    points = np.random.default_rng(1).normal(size=(30, 3))
+    points[5, 1] = np.nan
+    for function in (ta.associate, ta.form):
+        assert message(lambda: function(points, element="plane")).startswith("points[5]: ")
+    assert message(lambda: ta.associate(points[:5], element="plain")).startswith("'plain' is not an element: use one of")
+
+
+def test_what_is_missing_at_the_top_of_a_dictionary_is_not_of_its_first_key():
+    text = message(lambda: ta.Machine({"axis": [{"name": "X"}]}))
+    assert all(line.startswith("machine: ") for line in text.splitlines()) and "`program` in the top level" in text
 
 
 def test_a_dictionary_of_a_sweep_names_the_axis():

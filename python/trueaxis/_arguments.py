@@ -101,8 +101,8 @@ def with_checked_arguments(function: _Function) -> _Function:
         try:
             return function(*args, **given)
         except TrueAxisError as error:
-            readings = args[0] if args else next(iter(given.values()), None)
-            error.args = (in_python(str(error), readings if "c" in order else None, given.get("source", "arrays")),)
+            first = args[0] if args else next(iter(given.values()), None)
+            error.args = (in_python(str(error), first, "c" in order, given.get("source", "arrays")),)
             raise
 
     call.__kwdefaults__ = function.__kwdefaults__  # stream() and read() list them

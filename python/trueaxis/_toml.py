@@ -73,10 +73,10 @@ def _by_keys(text: str, document: Mapping[str, Any], name: str, path: str) -> st
     places = [place for place, _ in _lines(document, name)]
 
     def place(match: re.Match[str]) -> str:
-        top = match.group(2) or not places
-        return (name if top else places[int(match.group(1)) - 1]) + ": " + (match.group(2) or "")
+        return (name if match.group(2) or not places else places[int(match.group(1)) - 1]) + ": " + match.group(2)
 
-    return re.sub(rf"{re.escape(path)}:(\d+)(?::\d+)?: (the top level )?", place, text).replace(path, name)
+    top = r"(the top level |`[^`]*` in the top level |)"
+    return re.sub(rf"{re.escape(path)}:(\d+)(?::\d+)?: {top}", place, text).replace(path, name)
 
 
 def _placed(value: Any, key: str = "") -> Any:

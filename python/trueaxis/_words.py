@@ -18,6 +18,7 @@ _NUMBER = re.compile(r"-?\d+(\.\d+)?")
 _COMMAND = re.compile(r"(`trueaxis [^`]*`)")
 _OPTIONS = [(re.compile(pattern), argument) for pattern, argument in (
     (r"--verbose prints all", "to_dict() has all"),
+    (r"^(\S+): is not (an element|a criterion)\b", r"'\1' is not \2"),
     (r"--(radius|diameter)\b", r'x="\1"'),
     (r"--upr (\d+)-(\d+)", r"band_upr=(\1, \2)"),
     (r"--(drop-invalid|relative|large-errors|force|bore)\b", r"\1=True"),
@@ -26,6 +27,7 @@ _OPTIONS = [(re.compile(pattern), argument) for pattern, argument in (
     (r"--([a-z][a-z-]+) (-?\d+(?:\.\d+)?)\b", r"\1=\2"),
     (r"--([a-z][a-z-]+)", r"\1"))]
 
+_POINT = re.compile(r"^points:(\d+): ", re.M)
 _ROWS = re.compile(r"\b(in )?(?:data rows?|rows?|lines) (\d+(?:[,–-] ?\d+)*)")
 _METADATA = [(re.compile(pattern), argument) for pattern, argument in (
     (r"'# reading: relative'", "relative=True"),
@@ -99,11 +101,16 @@ def _of_arrays(text: str, source: str, table: bool) -> str:
     return text.removeprefix(f"{source}: ") if re.match(rf"{re.escape(source)}: [xcz]_unit:", text) else text
 
 
-def in_python(text: str, readings: Any, source: str) -> str:
-    """Returns a message of a function that was given readings (None: it takes none) in words of Python."""
+def in_python(text: str, given: Any, readings: bool = False, source: str = "arrays") -> str:
+    """Returns a message of a function whose first argument is given, readings or something else, in words of Python."""
     text = with_arguments(text)
-    if readings is None or isinstance(readings, (str, os.PathLike)):
+    if isinstance(given, (str, os.PathLike)):
         return text
+    text = _POINT.sub(lambda at: f"points[{int(at.group(1)) - 1}]: ", text)
+    return _of_given(text, given, source) if readings else text
+
+
+def _of_given(text: str, readings: Any, source: str) -> str:
     if not hasattr(readings, "input_hash"):
         return _of_arrays(text, source, isinstance(readings, Mapping) or hasattr(readings, "columns"))
     table = made_of_table.get(readings)
