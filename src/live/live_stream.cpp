@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "math/golden_section.hpp"
@@ -136,13 +138,94 @@ ProbeStream LiveStream::stream_of(std::vector<Reading> readings) const {
   return out;
 }
 
+/// All means, in the order of arrival. Every cell has at most as many as the cells of its motion
+/// have in the mean; what is more is in its last one, so that no pass is nearly empty.
+std::vector<LiveStream::Mean> LiveStream::means() const {
+  std::vector<Mean> all;
+  for (const Reading& row : rows_) {
+    const double ideal_mm = ideal_(row.c_rad, row.position_mm);
+    all.push_back(
+        {row, ideal_mm, static_cast<double>(stride_) * (row.value_mm - ideal_mm), stride_});
+  }
+  for (const auto& [cell, mean] : open_) all.push_back(mean);
+  std::ranges::sort(all, {}, [](const Mean& mean) { return mean.first.arrival; });
+
+  struct Share {
+    std::size_t cells = 0, means = 0;
+  };
+  std::map<std::pair<int, std::uint32_t>, Share> shares;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> of_cell;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<std::size_t>& here = of_cell[cell_of(all[i].first)];
+    Share& share = shares[{all[i].first.setup, all[i].first.motion}];
+    ++share.means, share.cells += here.empty() ? 1 : 0;
+    here.push_back(i);
+  }
+  for (const auto& [cell, here] : of_cell) {
+    const Share& share = shares[{all[here[0]].first.setup, all[here[0]].first.motion}];
+    for (std::size_t k = share.means / share.cells; k < here.size(); ++k) {
+      Mean& last = all[here[share.means / share.cells - 1]];
+      last.deviation_mm += all[here[k]].deviation_mm;
+      last.count += std::exchange(all[here[k]].count, 0);
+    }
+  }
+  std::erase_if(all, [this](const Mean& mean) { return 2 * mean.count < stride_; });
+  return all;
+}
+
+/// The k-th mean of every cell is of pass k: band by band along the feed, sector by sector.
+std::vector<LiveStream::Reading> LiveStream::in_passes() const {
+  struct Place {
+    int setup;
+    std::size_t pass;  ///< 0 where C stands
+    std::uint32_t motion;
+    std::int64_t along;  ///< the band, in the order of the feed
+    double share;        ///< of the revolution, in the sense of C
+    std::uint64_t arrival;
+    Reading mean;
+    double off_mm;
+    auto key() const { return std::tie(setup, pass, motion, along, share, arrival); }
+    auto turn() const { return std::tie(setup, pass, motion, along); }
+  };
+  std::unordered_map<std::uint64_t, std::size_t> met;
+  std::vector<Place> places;
+  for (const Mean& mean : means()) {
+    const Reading& at = mean.first;
+    const std::uint64_t cell = cell_of(at);
+    const std::size_t pass = met[cell]++;
+    const std::int64_t band = static_cast<std::int64_t>(cell & 0xffff) - 32768;
+    const double turns = at.c_rad / two_pi, share = turns - std::floor(turns);
+    const int turning = turning_of(at.motion);
+    places.push_back({at.setup, turning == 0 ? 0 : pass, at.motion,
+                      feed_of(at.motion) < 0 ? -band : band, turning < 0 ? 1.0 - share : share,
+                      at.arrival, at, mean.deviation_mm / static_cast<double>(mean.count)});
+  }
+  std::ranges::sort(places, [](const Place& a, const Place& b) { return a.key() < b.key(); });
+  std::vector<Reading> out;
+  double turn = 0.0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Place& place = places[k];
+    if (k > 0 && places[k - 1].turn() != place.turn()) turn += 1.0;
+    Reading mean = place.mean;
+    const int turning = turning_of(mean.motion), feed = feed_of(mean.motion);
+    mean.c_rad = two_pi * (turning < 0 ? -turn - place.share : turn + place.share);
+    if (turning != 0 && feed != 0) {
+      const double bands = static_cast<double>(place.along) + place.share;
+      mean.position_mm = z_low_ + band_mm_ * (feed < 0 ? 1.0 - bands : bands);
+    }
+    mean.value_mm = ideal_(mean.c_rad, mean.position_mm) + place.off_mm;
+    mean.arrival = k;
+    out.push_back(mean);
+  }
+  return out;
+}
+
 ProbeStream LiveStream::kept() const {
-  std::vector<Reading> readings = rows_;
-  for (const auto& [cell, mean] : open_)
-    if (2 * mean.count >= stride_) readings.push_back(mean.reading());
-  ProbeStream out = stream_of(std::move(readings));
-  if (averages() && out.sensor_noise_mm)
-    *out.sensor_noise_mm /= std::sqrt(static_cast<double>(stride_));
+  if (!averages()) return stream_of(rows_);
+  ProbeStream out = stream_of(in_passes());
+  out.time_s.clear();
+  out.pass.clear();
+  if (out.sensor_noise_mm) *out.sensor_noise_mm /= std::sqrt(static_cast<double>(stride_));
   return out;
 }
 

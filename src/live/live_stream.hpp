@@ -32,7 +32,8 @@ class LiveStream {
   /// The first one given before something is thinned counts.
   void average_about(IdealReading ideal);
 
-  /// In the order of arrival.
+  /// In the order of arrival. Means are in that of their place, as if the part had been probed by a
+  /// few passes, a band of Z per revolution: then there is neither a time nor a pass column.
   ProbeStream kept() const;
   std::size_t size() const { return rows_.size(); }
   std::size_t readings() const { return readings_; }  ///< that arrived
@@ -66,7 +67,8 @@ class LiveStream {
   void gather(const Reading& reading, std::size_t count);
   void thin();
   std::uint64_t cell_of(const Reading& reading) const;
-  void put_grid();
+  std::vector<Mean> means() const;
+  std::vector<Reading> in_passes() const;
   ProbeStream stream_of(std::vector<Reading> readings) const;
   template <class Readings>
   ProbeStream sample_of(const Readings& from, std::size_t begin, std::size_t count) const;

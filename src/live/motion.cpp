@@ -15,6 +15,9 @@ constexpr std::uint32_t speeds = 4096;
 
 }  // namespace
 
+int turning_of(std::uint32_t motion) { return static_cast<int>(motion / 3 % 3) - 1; }
+int feed_of(std::uint32_t motion) { return static_cast<int>(motion % 3) - 1; }
+
 std::uint32_t Motion::at(double c_rad, double z_mm, double time_s) {
   if (!started_) c_ = c_rad, z_turned_ = z_mm, time_ = time_s;
   const bool second = started_ && c_step_ == 0.0 && time_step_ == 0.0;

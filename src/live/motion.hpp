@@ -5,6 +5,10 @@
 
 namespace trueaxis {
 
+/// Senses of a motion: −1, 0, +1.
+int turning_of(std::uint32_t motion);
+int feed_of(std::uint32_t motion);
+
 /// How spindle and slide move at a reading, as one number: senses of C and Z, and the speed of C in
 /// steps of 5 %.
 class Motion {
