@@ -195,6 +195,14 @@ struct RepeatingMotion {
   double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< u = (z − z_mid)/z_half
 };
 
+/// A motion of the spindle along X at the tool, cos · cos nC + sin · sin nC, that no probe sees
+/// where the tool cuts: it comes out of the form of finished parts, measured elsewhere.
+struct LearnedMotion {
+  int order = 0;
+  double cos_mm = 0.0, sin_mm = 0.0;
+  double u_mm = 0.0;  ///< standard uncertainty of either
+};
+
 /// What becomes of an eccentricity once per revolution from the readings of the references to the
 /// cut: the axis of the cut is e^{gain + i lag} times the one that the table was made for, x + i y.
 /// It stays with the machine: probe, filter, servo and the zero of C.
@@ -202,6 +210,7 @@ struct LoopResponse {
   double gain = 0.0;     ///< logarithm: 0.01 cuts 1 % too far off the spindle axis
   double lag_rad = 0.0;  ///< positive: the axis comes out turned in the sense of the part's angle
   double u_gain = 0.0, u_lag_rad = 0.0;  ///< standard uncertainties
+  std::vector<LearnedMotion> motion{};   ///< that the tool follows
 };
 
 /// How far what a control makes of a table is from the wanted correction, over the cut.

@@ -15,11 +15,19 @@ struct LoopEvidence {
   double information = 0.0, sum = 0.0, squares = 0.0;
 };
 
+/// The same of an order of the motion of the spindle.
+struct MotionEvidence {
+  int order = 0;
+  LoopEvidence cos{}, sin{};
+};
+
 /// What is known of the machine from the parts before. Each part adds the whole response: what its
 /// table was corrected for, and what its verification shows beyond that.
 struct MachineLoop {
   int parts = 0;
   LoopEvidence gain, lag;
+  int forms = 0;  ///< parts whose form was measured elsewhere
+  std::vector<MotionEvidence> motion{};
 };
 
 /// The error that stays: the axis of a cut, probed again, over the target axis (logarithm), beyond
@@ -27,6 +35,7 @@ struct MachineLoop {
 /// the cut shows that is neither gain nor lag.
 struct LoopObservation {
   double gain = 0.0, lag_rad = 0.0, u_gain = 0.0, u_lag_rad = 0.0;
+  std::vector<LearnedMotion> motion{};  ///< less the form that was left; none: not measured
 };
 
 /// The response before any part was verified: normal about 0.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -196,12 +195,9 @@ int execute(WatchArguments& options) {
     platform::on_stop([](int) { stopped = 1; });
     Clock::time_point due = Clock::now();
     while (source.read(text)) {
-      const Clock::time_point began = Clock::now();
-      if (began < due) continue;
+      if (Clock::now() < due) continue;
+      due = Clock::now() + between_pictures;
       watch.update(text);
-      // On a busy machine a picture takes long: what arrives then has two thirds of the time.
-      const Clock::time_point ended = Clock::now();
-      due = std::max(began + between_pictures, ended + 2 * (ended - began));
     }
     watch.update(text);
     platform::on_stop(nullptr);

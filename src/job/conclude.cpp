@@ -2,6 +2,7 @@
 #include "job/conclude.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "correct/coaxiality_distribution.hpp"
 #include "job/check.hpp"
@@ -9,6 +10,7 @@
 #include "job/datum_axes.hpp"
 #include "job/doubts.hpp"
 #include "job/inclusion.hpp"
+#include "job/machine_motion.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
 #include "job/target_datum.hpp"
@@ -39,6 +41,7 @@ void plan_cut(PlannedJob& plan) {
   if (plan.datum) plan.datum->references = limited_remainders(references, solved.axis.axis, target);
   IncludedMotions included = included_motions(plan);
   plan.inclusions = std::move(included.inclusions);
+  std::ranges::move(followed(plan.job.loop.motion), std::back_inserter(included.motions));
   plan.correction = make_correction(solved.axis, target, plan.job.tool, plan.job.actuator,
                                     std::move(included.motions), plan.job.loop);
   for (const ControlTable& output : plan.job.outputs)

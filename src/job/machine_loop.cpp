@@ -6,6 +6,8 @@
 #include <cmath>
 #include <complex>
 
+#include "job/loop_evidence.hpp"
+#include "job/machine_motion.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -21,35 +23,11 @@ const EffectParameter& size_of(Influence::Kind kind) {
   return effect->parameters.front();
 }
 
-/// Root mean square of sizes that are log-uniform over their range.
-double typical(const EffectParameter& size) {
-  return std::sqrt((size.high * size.high - size.low * size.low) /
-                   (2.0 * std::log(size.high / size.low)));
-}
-
-double chi2_about_mean(const LoopEvidence& e) {
-  return e.information > 0.0 ? std::max(0.0, e.squares - e.sum * e.sum / e.information) : 0.0;
-}
-
 /// How much the parts scatter beyond their variances; at least 1.
 double scatter_of(const MachineLoop& loop) {
   if (loop.parts < 2) return 1.0;
   return std::max(
       1.0, (chi2_about_mean(loop.gain) + chi2_about_mean(loop.lag)) / (2.0 * (loop.parts - 1)));
-}
-
-struct Shrunk {
-  double value, u;
-};
-
-Shrunk shrunk(const LoopEvidence& e, double scatter, double u_prior) {
-  const double information = e.information / scatter + 1.0 / (u_prior * u_prior);
-  return {e.sum / scatter / information, 1.0 / std::sqrt(information)};
-}
-
-void add(LoopEvidence& e, double value, double u) {
-  const double weight = 1.0 / (u * u);
-  e.information += weight, e.sum += weight * value, e.squares += weight * value * value;
 }
 
 }  // namespace
@@ -65,7 +43,7 @@ LoopResponse response_of(const MachineLoop& loop, const LoopPrior& prior) {
   const double scatter = scatter_of(loop);
   const Shrunk gain = shrunk(loop.gain, scatter, prior.u_gain),
                lag = shrunk(loop.lag, scatter, prior.u_lag_rad);
-  return {gain.value, lag.value, gain.u, lag.u};
+  return {gain.value, lag.value, gain.u, lag.u, motion_response(loop)};
 }
 
 LoopTrouble trouble_with(const MachineLoop& before, const LoopResponse& used,
@@ -89,13 +67,14 @@ LoopTrouble trouble_with(const MachineLoop& before, const LoopResponse& used,
   if (size > 0.0 && along - size > refuted_by * u_along) return LoopTrouble::wrong_sign;
   if (seen.gain * seen.gain / gain2 + seen.lag_rad * seen.lag_rad / lag2 > chi2_of_two)
     return LoopTrouble::changed;
-  return LoopTrouble::none;
+  return motion_trouble(used, seen);
 }
 
 MachineLoop learned(MachineLoop before, const LoopResponse& used, const LoopObservation& seen) {
   ++before.parts;
   add(before.gain, used.gain + seen.gain, seen.u_gain);
   add(before.lag, used.lag_rad + seen.lag_rad, seen.u_lag_rad);
+  learn_motion(before, used, seen);
   return before;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "job/doubts.hpp"
+#include "job/machine_motion.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/error.hpp"
 
@@ -63,7 +64,7 @@ LoopObservation ratio(const Axis& target, const AxisEstimate& cut) {
   Eigen::Matrix2d to_log;
   to_log << turn.real(), -turn.imag(), turn.imag(), turn.real();
   const Eigen::Matrix2d u2 = wider * to_log * information.inverse() * to_log.transpose();
-  return {log.real(), log.imag(), std::sqrt(u2(0, 0)), std::sqrt(u2(1, 1))};
+  return {log.real(), log.imag(), std::sqrt(u2(0, 0)), std::sqrt(u2(1, 1)), {}};
 }
 
 }  // namespace
@@ -85,7 +86,8 @@ double probing_speed(const std::vector<ProbeStream>& streams) {
   return readings > 0.0 ? sum / readings : 0.0;
 }
 
-VerifiedCut verified_cut(const JobResult& result, const ProbeStream& probed_again) {
+VerifiedCut verified_cut(const JobResult& result, const ProbeStream& probed_again,
+                         const ProbeStream* form) {
   const TargetSurface& target = *result.job.target;
   DiagnoseOptions options;
   options.fit = options_of_cut(result.job);
@@ -96,8 +98,7 @@ VerifiedCut verified_cut(const JobResult& result, const ProbeStream& probed_agai
   std::set<std::string> of_cut;
   add_causes(diagnosis, of_cut);
   const Axis& wanted = result.target_axis->axis.axis;
-  AxisEstimate cut = diagnosis.extended.axis;
-  cut.covariance = by_readings(diagnosis).axis.covariance;
+  const AxisEstimate cut = by_readings(diagnosis).axis;
   VerifiedCut out{ratio(wanted, cut), listed(of_cut)};
   for (const double z_mm : {target.z_start_mm, target.z_end_mm}) {
     const auto [x, y] = cut.axis.at(z_mm);
@@ -110,6 +111,7 @@ VerifiedCut verified_cut(const JobResult& result, const ProbeStream& probed_agai
     throw Refusal(
         "the target axis is so near the spindle axis that the cut shows neither gain nor lag: take "
         "[verification] out for this part");
+  if (form != nullptr) out.seen.motion = motion_of_form(*form, options.fit);
   return out;
 }
 

@@ -177,7 +177,7 @@ std::vector<LiveStream::Mean> LiveStream::means() const {
 std::vector<LiveStream::Reading> LiveStream::in_passes() const {
   struct Place {
     int setup;
-    std::size_t pass;  ///< 0 where C stands
+    std::size_t pass;  ///< 0 if C does not turn
     std::uint32_t motion;
     std::int64_t along;  ///< the band, in the order of the feed
     double share;        ///< of the revolution, in the sense of C

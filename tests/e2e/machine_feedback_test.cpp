@@ -51,6 +51,16 @@ class MachineFeedback : public CommandTest {
     file("part_" + n + ".toml", job(k, false));
     return command("run part_" + n + ".toml -o part_" + n + arguments);
   }
+  /// The finished cut, measured elsewhere, with what a chuck leaves.
+  void measure(int k, const ShopLathe::Cut& cut) {
+    const std::string n = std::to_string(k);
+    file("form_" + n + ".csv", ShopLathe::measured_form(cut, 1e-3, own_lobes_mm, 1000 + k));
+    std::string text = job(k, true);
+    text.replace(text.find("[verification]\n"), 15,
+                 "[verification]\nform = \"form_" + n + ".csv\"\n");
+    file("cut_" + n + ".toml", text);
+  }
+  static constexpr double own_lobes_mm = 1e-4;
   /// It is cut with the table and probed again.
   ShopLathe::Cut cut(int k, const ShopLathe& lathe) {
     const std::string n = std::to_string(k);
@@ -133,6 +143,83 @@ TEST_F(MachineFeedback, OfTwentyPartsTheErrorThatStaysFallsBelowAThirdAndDoesNot
     for (const auto& harmonic : got.at("correction").at("harmonics"))
       EXPECT_NE(harmonic.at("order"), 3) << harmonic;
   }
+}
+
+// The spindle moves the part three times per revolution by 2 µm, against tool and probe alike: the
+// cut as it is probed again is round, and the form tester shows it. Every part has lobes of its
+// own, two of 1 µm and three of 0.1 µm, which are not followed.
+TEST_F(MachineFeedback, FollowsAMotionOfTheSpindleThatTheFormOfThePartsShows) {
+  constexpr int parts = 20;
+  std::printf("seed 11\n");
+  std::mt19937_64 random(11);
+  ShopLathe lathe;
+  lathe.motion_mm = 2e-3, lathe.motion_phase_rad = 0.8;
+  const double middle = 0.5 * (z_low + z_high);
+  std::complex<double> first;
+  for (int k = 1; k <= parts; ++k) {
+    SCOPED_TRACE("part " + std::to_string(k));
+    const CommandStreams planned = plan(k, lathe, drawn_part(random), previous(k - 1));
+    ASSERT_EQ(planned.exit_code, 0) << planned.out << planned.err;
+    const ShopLathe::Cut done = cut(k, lathe);
+    measure(k, done);
+    const CommandStreams verified = verify(k, previous(k - 1));
+    ASSERT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+    const std::complex<double> left = done.order_at(3, middle);
+    if (k == 1) {
+      first = left;
+      EXPECT_NEAR(std::abs(first), lathe.motion_mm, 0.02 * lathe.motion_mm);
+    }
+    // One part does not tell its own form from a motion.
+    if (k == 2) {
+      EXPECT_NEAR(std::abs(left - first), 0.0, 0.02 * lathe.motion_mm);
+    }
+    if (k > 3) {
+      EXPECT_LT(std::abs(left), std::abs(first) / 3.0);
+      // No overshoot but for the mean of the parts' own lobes, a tenth of a micrometre each.
+      EXPECT_GT((left / first).real() * std::abs(first),
+                -4.0 * own_lobes_mm / std::sqrt(2.0 * (k - 1)));
+    }
+    if (k > 10) {
+      EXPECT_LT(std::abs(left), std::abs(first) / 8.0);
+    }
+    const auto learned =
+        result("cut_" + std::to_string(k) + "/result.json").at("feedback").at("learned");
+    for (const auto& one : learned.value("motion", nlohmann::json::array()))
+      EXPECT_EQ(one.at("order"), 3) << one;
+  }
+}
+
+TEST_F(MachineFeedback, RefusesAMotionOfTheWrongSignAndOneThatChangedByName) {
+  std::mt19937_64 random(13);
+  ShopLathe lathe;
+  lathe.motion_mm = 2e-3;
+  for (int k = 1; k <= 3; ++k) {
+    ASSERT_EQ(plan(k, lathe, drawn_part(random), previous(k - 1)).exit_code, 0);
+    measure(k, cut(k, lathe));
+    const CommandStreams verified = verify(k, previous(k - 1));
+    ASSERT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+  }
+  ASSERT_EQ(plan(4, lathe, drawn_part(random), previous(3)).exit_code, 0);
+  const auto expect = [&](const ShopLathe::Cut& measured, const std::string& why) {
+    measure(4, measured);
+    const CommandStreams verified = verify(4, previous(3));
+    EXPECT_EQ(verified.exit_code, 3) << verified.out;
+    EXPECT_TRUE(contains(verified.err, why)) << verified.err;
+  };
+  // As if the servo went the other way at three per revolution: the form is twice the motion.
+  ShopLathe::Cut wrong = cut(4, lathe);
+  const ShopLathe::Cut right = wrong;
+  for (std::size_t i = 0; i < wrong.radius_mm.size(); ++i)
+    wrong.radius_mm[i] -= 2.0 * lathe.motion_at(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                                static_cast<double>(wrong.rows));
+  expect(wrong, "shows the wrong sign");
+  for (std::size_t i = 0; i < wrong.radius_mm.size(); ++i)
+    wrong.radius_mm[i] =
+        right.radius_mm[i] + 8e-3 * std::sin(6.0 * std::numbers::pi * static_cast<double>(i) /
+                                             static_cast<double>(wrong.rows));
+  expect(wrong, "shows that the machine changed since cut_3/result.json");
+  measure(4, right);
+  EXPECT_EQ(verify(4, previous(3)).exit_code, 0);
 }
 
 /// Every refusal has the place, and what mends it.

@@ -44,10 +44,12 @@ struct ShopLathe {
       return (1.0 - w) * along(low, z) + w * along((low + 1) % rows, z);
     }
     /// The axis of the surface at a height: the first harmonic of its radius.
-    std::complex<double> axis_at(double z) const {
+    std::complex<double> axis_at(double z) const { return order_at(1, z); }
+    /// a e^{iφ} of a cos(nC − φ) in its radius.
+    std::complex<double> order_at(int n, double z) const {
       std::complex<double> sum;
       for (std::size_t i = 0; i < rows; ++i)
-        sum += along(i, z) * std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(i) /
+        sum += along(i, z) * std::polar(1.0, 2.0 * std::numbers::pi * n * static_cast<double>(i) /
                                                  static_cast<double>(rows));
       return 2.0 / static_cast<double>(rows) * sum;
     }
@@ -128,6 +130,30 @@ struct ShopLathe {
                          std::uint64_t seed) const {
     return probed(
         z_from, z_to, radius_mm, [&](double c, double z) { return cut.at(c, z); }, seed);
+  }
+
+  /// The cut on a form tester, in the part's C: three sections about an axis of the tester's own,
+  /// with lobes that the part has by itself, as a chuck leaves them.
+  static std::string measured_form(const Cut& cut, double two_lobes_mm, double three_lobes_mm,
+                                   std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> noise(0.0, 2e-5);
+    std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
+    const std::complex<double> off = std::polar(5e-3, phase(random));
+    const double two = phase(random), three = phase(random);
+    std::ostringstream out;
+    out << "# x_convention: radius\nX_M[mm],C[deg],Z[mm]\n";
+    char line[80];
+    for (int i = 0; i < 3 * 720; ++i) {
+      const double c = std::numbers::pi / 360.0 * i, z = 45.0 + 6.0 * (i / 720);
+      // About its own axis, and set up on the tester a little off.
+      const double x = cut.at(c, z) - (cut.axis_at(z) * std::polar(1.0, -c)).real() +
+                       (off * std::polar(1.0, -c)).real() + two_lobes_mm * std::cos(2.0 * c - two) +
+                       three_lobes_mm * std::cos(3.0 * c - three) + noise(random);
+      std::snprintf(line, sizeof line, "%.8f,%.5f,%.5f\n", x, 0.5 * i, z);
+      out << line;
+    }
+    return out.str();
   }
 
   /// A cylinder turned with the rows of a table.csv: the servo follows X_command as a low pass of

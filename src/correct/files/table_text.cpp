@@ -137,6 +137,9 @@ std::string correction_header(const Correction& correction) {
     text +=
         fmt::format("# machine_loop: the table is corrected for gain {:+.6f}, lag {:+.5f} deg\n",
                     correction.loop.gain, correction.loop.lag_rad / rad_per_deg);
+  for (const LearnedMotion& one : correction.loop.motion)
+    text += fmt::format("# machine_motion: {} UPR, cos {:+.6f} um, sin {:+.6f} um\n", one.order,
+                        one.cos_mm * um, one.sin_mm * um);
   return text;
 }
 

@@ -65,6 +65,7 @@ void name_job_files(Outputs& outputs, const JobFile& file, const std::string& fo
   if (file.verification) {
     outputs.reads(file.verification->stream.path);
     outputs.reads(file.verification->table);
+    if (!file.verification->form.path.empty()) outputs.reads(file.verification->form.path);
   }
   outputs.into(folder);
   for (const ResultName& result : job_file_names(file.job))

@@ -72,13 +72,45 @@ LoopEvidence evidence_from(const Json& json) {
   return {json.at("information"), json.at("sum"), json.at("squares")};
 }
 
-Json loop_object(double gain, double u_gain, double lag_rad, double u_lag_rad) {
-  return {{"gain", to_json(Estimate{gain, u_gain, "1", ""})},
-          {"lag", to_json(Estimate{lag_rad, u_lag_rad, "rad", ""})}};
+Json loop_object(const LoopResponse& r) {
+  Json json{{"gain", to_json(Estimate{r.gain, r.u_gain, "1", ""})},
+            {"lag", to_json(Estimate{r.lag_rad, r.u_lag_rad, "rad", ""})}};
+  if (!r.motion.empty())
+    json["motion"] = list_of(r.motion, [](const LearnedMotion& one) -> Json {
+      return {{"order", one.order},
+              {"cos", to_json(Estimate{one.cos_mm, one.u_mm, "mm", ""})},
+              {"sin", to_json(Estimate{one.sin_mm, one.u_mm, "mm", ""})}};
+    });
+  return json;
+}
+
+LoopResponse response_in(const LoopObservation& seen) {
+  return {seen.gain, seen.lag_rad, seen.u_gain, seen.u_lag_rad, seen.motion};
+}
+
+Json evidence_object(const MachineLoop& loop) {
+  return {{"parts", loop.parts},
+          {"gain", evidence_object(loop.gain)},
+          {"lag", evidence_object(loop.lag)},
+          {"forms", loop.forms},
+          {"motion", list_of(loop.motion, [](const MotionEvidence& e) -> Json {
+             return {{"order", e.order},
+                     {"cos", evidence_object(e.cos)},
+                     {"sin", evidence_object(e.sin)}};
+           })}};
+}
+
+MachineLoop loop_from(const Json& json) {
+  MachineLoop loop{json.at("parts"), evidence_from(json.at("gain")), evidence_from(json.at("lag")),
+                   json.value("forms", 0)};
+  for (const Json& one : json.value("motion", Json::array()))
+    loop.motion.push_back(
+        {one.at("order"), evidence_from(one.at("cos")), evidence_from(one.at("sin"))});
+  return loop;
 }
 
 Json response_object(const LoopResponse& r, int parts) {
-  Json json = loop_object(r.gain, r.u_gain, r.lag_rad, r.u_lag_rad);
+  Json json = loop_object(r);
   json["parts"] = parts;
   return json;
 }
@@ -132,8 +164,16 @@ std::vector<Diagnostic> differences(const std::string& job, const std::string& p
 }
 
 std::string percent_and_degrees(const LoopResponse& r) {
-  return fmt::format("gain {:+.3g} ± {:.2g} %, lag {:+.3g} ± {:.2g}° (k = 2)", 100.0 * r.gain,
-                     200.0 * r.u_gain, r.lag_rad / rad_per_deg, 2.0 * r.u_lag_rad / rad_per_deg);
+  std::string text =
+      fmt::format("gain {:+.3g} ± {:.2g} %, lag {:+.3g} ± {:.2g}°", 100.0 * r.gain,
+                  200.0 * r.u_gain, r.lag_rad / rad_per_deg, 2.0 * r.u_lag_rad / rad_per_deg);
+  for (const LearnedMotion& one : r.motion) {
+    const double size_mm = std::hypot(one.cos_mm, one.sin_mm);
+    if (size_mm > refuted_by * one.u_mm)
+      text += fmt::format(", motion {:.2g} ± {:.1g} µm {} UPR", size_mm / mm_per_um,
+                          2.0 * one.u_mm / mm_per_um, one.order);
+  }
+  return text + " (k = 2)";
 }
 
 }  // namespace
@@ -164,9 +204,12 @@ MachineFeedback feedback_before(const JobFile& file, const std::vector<ProbeStre
                              "the result of the part before"});
     if (!wrong.empty()) throw InputError(std::move(wrong));
     out.corrected = before.at("corrected_causes").get<std::vector<std::string>>();
-    const Json& evidence = before.at("evidence");
-    out.before = {evidence.at("parts"), evidence_from(evidence.at("gain")),
-                  evidence_from(evidence.at("lag"))};
+    out.before = loop_from(before.at("evidence"));
+    if (out.before.forms > 0 && !job.include.empty())
+      refuse(file.path,
+             "includes a motion in [cut] that " + previous +
+                 " has learned from the form of the parts: take `include` out, or run the job "
+                 "without --previous");
   }
   out.after = out.before;
   for (const ProbeStream& stream : streams) out.streams.push_back(stream.input_hash);
@@ -177,8 +220,7 @@ namespace {
 
 std::string trouble_words(LoopTrouble trouble, const LoopResponse& used,
                           const LoopObservation& seen, const std::string& previous) {
-  const std::string stays =
-      percent_and_degrees({seen.gain, seen.lag_rad, seen.u_gain, seen.u_lag_rad});
+  const std::string stays = percent_and_degrees(response_in(seen));
   switch (trouble) {
     case LoopTrouble::none:
       break;
@@ -233,8 +275,10 @@ void learn_from_cut(JobResult& result, const JobFile& file, const std::string& p
                        "cut at their speed and in their sense",
                        60.0 / two_pi * now, 60.0 / two_pi * before));
   VerifiedCut cut;
+  std::optional<ProbeStream> form;
+  if (!file.verification->form.path.empty()) form = read_stream(file.verification->form);
   try {
-    cut = verified_cut(result, again);
+    cut = verified_cut(result, again, form ? &*form : nullptr);
   } catch (const Refusal& refusal) {
     refuse(path, refusal.what());
   }
@@ -251,6 +295,7 @@ void learn_from_cut(JobResult& result, const JobFile& file, const std::string& p
   feedback.after = learned(feedback.before, result.job.loop, cut.seen);
   feedback.seen = cut.seen, feedback.off_mm = cut.off_mm, feedback.U_off_mm = cut.U_off_mm;
   feedback.streams.push_back(again.input_hash);
+  if (form) feedback.streams.push_back(form->input_hash);
 }
 
 Json feedback_object(const JobResult& result) {
@@ -260,15 +305,12 @@ Json feedback_object(const JobResult& result) {
             {"corrected_for", response_object(result.job.loop, f.before.parts)}};
   json["verification"] = nullptr;
   if (f.seen) {
-    json["verification"] =
-        loop_object(f.seen->gain, f.seen->u_gain, f.seen->lag_rad, f.seen->u_lag_rad);
+    json["verification"] = loop_object(response_in(*f.seen));
     json["verification"]["off"] =
         to_json(Estimate{f.off_mm, f.U_off_mm / result.verdict.coverage_factor, "mm", ""});
   }
   json["learned"] = response_object(response_of(f.after, f.prior), f.after.parts);
-  json["evidence"] = {{"parts", f.after.parts},
-                      {"gain", evidence_object(f.after.gain)},
-                      {"lag", evidence_object(f.after.lag)}};
+  json["evidence"] = evidence_object(f.after);
   json["streams"] = f.streams;
   json["hash"] = content_hash(json.dump());
   return json;

@@ -22,6 +22,7 @@ struct StreamFile {
 struct VerificationFile {
   StreamFile stream;
   std::string table;  ///< that the part was cut with
+  StreamFile form{};  ///< of the finished cut, measured elsewhere in the part's C; no path: none
 };
 
 /// A job as it is written down: what run_job() gets, and the files it comes from.

@@ -64,6 +64,9 @@ void read_verification(TomlTable root, TomlTable table, JobFile& file) {
   verification.table = table.required_path("table");
   read_stream_keys(table, verification.stream);
   const Job& job = file.job;
+  verification.form.path = table.maybe_path("form").value_or("");
+  if (!verification.form.path.empty() && job.tool.angle_from_probe_rad != 0.0)
+    table.complain("form", "is for a tool at the place of the probe: its C is that of the table");
   if (!job.target || job.target->kind == TargetKind::face)
     root.complain("verification", "needs a [target] that is turned around: a cylinder or a cone");
 }
