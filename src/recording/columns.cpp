@@ -7,6 +7,7 @@
 
 #include "base/number.hpp"
 #include "format/csv_text.hpp"
+#include "format/nearest_key.hpp"
 #include "recording/column_names.hpp"
 
 namespace trueaxis {
@@ -83,9 +84,14 @@ std::vector<TakenColumn> as_said(const Recording& recording, const ColumnsSaid& 
       continue;
     }
     if (!column) {
+      std::vector<std::string> names;
+      for (const RecordedColumn& one : recording.columns) names.push_back(one.name);
+      const std::string near = nearest_key(item.column, names);
       unclear.push_back(
-          fmt::format("there is no column {}: name one of the header, or its number, 1 to {}",
-                      csv_quoted(item.column), recording.columns.size()));
+          fmt::format("there is no column {}{} one of the header, or its number, 1 to {}",
+                      csv_quoted(item.column),
+                      near.empty() ? ": name" : ", did you mean " + csv_quoted(near) + "? Name",
+                      recording.columns.size()));
       continue;
     }
     if (std::ranges::find(taken, *role, &TakenColumn::role) != taken.end())
