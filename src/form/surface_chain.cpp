@@ -160,7 +160,7 @@ Eigen::VectorXd SurfaceOrder::draw(const Eigen::VectorXd& right, double variance
   return tau * (in.back * at);
 }
 
-constexpr int warm_up = 60;
+constexpr int warm_up = 240, sweeps_a_draw = 5;
 /// An order may be absent, the same along Z, or changing: Dirichlet numbers of their shares.
 enum State { absent, constant, changing };
 constexpr std::array<double, 3> prior_counts{2.0, 1.0, 1.0};
@@ -376,7 +376,7 @@ SurfacePosterior sample_surface(const SurfaceTerms& terms, SurfaceSums sums,
   out.order_is_there = VectorXd::Zero(terms.orders + 1);
   for (int draw = 0; draw < options.draws; ++draw) {
     stop_if_asked();
-    chain.sweep(draw);
+    for (int k = 0; k < sweeps_a_draw; ++k) chain.sweep(sweeps_a_draw * draw + k);
     out.coefficients.col(draw) = chain.draw();
     out.noise_mm.push_back(chain.noise_mm());
     for (int n = 0; n <= terms.orders; ++n)

@@ -332,10 +332,11 @@ TEST_F(RecordingFormats, AScaleWithADecimalCommaIsReadBesideWholeNumbers) {
 
 // Ticks are whole numbers of 64 bits, and what a file says of them may be any.
 TEST_F(RecordingFormats, TicksFarApartAreAsManySeconds) {
-  const ProbeStream stream = read_recording(
-      put("Name;Lathe;\nStarttime of export;1;x;y\n\nName;X;C;Z;\nUnit;mm;°;mm;\n"
-          "-9000000000000000000;40;0;1;\n0;41;90;2;\n9000000000000000000;42;180;3;\n"),
-      said("X=X,C=C,Z=Z,t=1", false));
+  const ProbeStream stream =
+      read_recording(put("Name;Lathe;\nStarttime of export;1;x;y\n\nName;X;C;Z;\nUnit;mm;°;mm;\n"
+                         "-9000000000000000000;40;0;1;\n0;41;600000000090;2;\n9000000000000000000;"
+                         "42;1200000000180;3;\n"),
+                     said("X=X,C=C,Z=Z,t=1", false));
   ASSERT_EQ(stream.size(), 3U);
   EXPECT_DOUBLE_EQ(stream.time_s[1] - stream.time_s[0], 9e11);
   EXPECT_DOUBLE_EQ(stream.time_s[2] - stream.time_s[0], 18e11);
