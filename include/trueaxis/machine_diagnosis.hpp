@@ -11,7 +11,8 @@
 #include "trueaxis/calibration.hpp"
 #include "trueaxis/inference.hpp"
 
-/// What the model of a machine gets wrong, from measurements of balls, bars and arrays
+/// What the model of a machine gets wrong, from measurements of balls, bars and arrays, or from
+/// read-outs alone
 /// (docs/reference/calibration.md).
 namespace trueaxis {
 
@@ -28,6 +29,7 @@ struct ErrorOfPosition {
   ErrorName error{};
   std::vector<ErrorFunction> functions;
   std::optional<AxisName> of{};
+  bool periodic = false;  ///< cos and sin of a period that is found
 };
 /// + or − half its size along an axis, of a rotary one about it, by the side that it came from.
 struct ErrorOfSense {
@@ -39,14 +41,23 @@ struct TipDrift {
 };
 /// A ball that is elsewhere on the workpiece's body from a row on.
 struct BallStep {};
+/// The zero of a read-out of an axis, linear in time.
+struct ZeroDrift {
+  AxisName axis = AxisName::X;
+};
+/// The zero of a read-out of an axis that is elsewhere from a row on.
+struct ZeroStep {
+  AxisName axis = AxisName::X;
+};
 /// How an effect is computed; monostate: it is not.
-using MachineTerm = std::variant<std::monostate, ErrorOfPosition, ErrorOfSense, TipDrift, BallStep>;
+using MachineTerm = std::variant<std::monostate, ErrorOfPosition, ErrorOfSense, TipDrift, BallStep,
+                                 ZeroDrift, ZeroStep>;
 
 /// Whether it is an error of the machine as a function of its axes, which programs are corrected
 /// by.
 bool is_machine_error(const MachineTerm& term);
 
-/// The axis whose position or sense it is a function of; none: of the time or the row.
+/// The axis whose position, sense or read-out it is a function of; none: of the time or the row.
 std::optional<AxisName> axis_of(const MachineTerm& term);
 
 /// An entry of the catalogue of a machine: all that diagnosis, job, report and command know of an
@@ -108,6 +119,7 @@ struct MachinePlan {
   std::vector<std::string> shows;      ///< effects that are not observable without it
   std::vector<std::string> separates;  ///< causes whose class it tells apart
   MeasurementKind kind = MeasurementKind::ball;
+  std::optional<AxisName> axis{};    ///< of a read-out
   std::vector<PlannedVisit> visits;  ///< in order
   Covariance covariance;             ///< of `MachineDiagnosis::uncertain` with it
 };
@@ -141,6 +153,7 @@ struct MachineDiagnosis : Conclusion {
   std::vector<UncertainParameter> uncertain;
   Covariance covariance;
 
+  bool of_read_outs() const { return baseline.balls.empty() && !baseline.read_outs.empty(); }
   /// The plan to take next; nullptr: none is needed.
   const MachinePlan* next() const;
 };

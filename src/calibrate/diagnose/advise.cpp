@@ -105,7 +105,10 @@ std::vector<Hidden> add_hidden(const Questions& q, const infer::Dictionary& dict
   };
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const Term& term = terms[t];
-    if (term.is_pattern() || term.is_slip()) continue;
+    // Of a periodic error the longest period stands for all.
+    if (term.is_pattern() || term.is_slip() ||
+        (term.is_periodic() && t > 0 && terms[t - 1].effect() == term.effect()))
+      continue;
     const double wanted = typical(term, q.options), power = detection.power(t, wanted);
     if (power >= infer::found_for_sure || is_stated(q, terms, term.effect(), out)) continue;
     const double size = detection.detectable_size(t);
@@ -171,6 +174,9 @@ Set found_with(const Problem& problem, const Geometry& geometry, const Questions
       found.push_back(terms.size());
       terms.push_back(slip_term(problem, geometry, term.of, row->target,
                                 static_cast<std::size_t>(row - problem.rows.begin())));
+    } else if (term.is_periodic()) {
+      found.push_back(terms.size());
+      terms.push_back(periodic_term(problem, geometry, term.of, term.period()));
     } else if (const auto own = term_of_cause(terms, term.of)) {
       found.push_back(*own);
     }

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/diagnose/catalogue.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "calibrate/diagnose/pattern.hpp"
 #include "calibrate/estimate/geometry.hpp"
 #include "calibrate/estimate/plausible_errors.hpp"
 #include "calibrate/estimate/random_effects.hpp"
+#include "calibrate/estimate/read_out.hpp"
 #include "machine/error_name.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
-
-constexpr int last_cyclic_order = 4;
 
 /// 95 % of the sizes of component errors lie within this factor of their median (Eq. 210).
 double factor_of_sizes() {
@@ -60,8 +63,11 @@ void add_polynomials(AxisName axis, const AxisRange& range, const ErrorName& err
   }
 }
 
-void add_harmonics(AxisName axis, const ErrorName& error, std::vector<MachineEffect>& out) {
-  for (int order = 1; order <= last_cyclic_order; ++order) {
+constexpr std::array cyclic_orders{1, 2, 3, 4};
+
+void add_harmonics(AxisName axis, const ErrorName& error, std::span<const int> orders,
+                   std::vector<MachineEffect>& out) {
+  for (const int order : orders) {
     MachineEffect one =
         component(error, axis, "harmonic", order, std::to_string(order) + " times per revolution");
     std::get<ErrorOfPosition>(one.term).functions = harmonic(order);
@@ -73,6 +79,9 @@ void add_harmonics(AxisName axis, const ErrorName& error, std::vector<MachineEff
 }
 
 bool comes_from_both_sides(const Problem& problem, AxisName axis) {
+  if (problem.read_outs())
+    return std::ranges::any_of(
+        problem.rows, [&](const Row& row) { return row.read_out == axis && row.sense != 0.0; });
   bool up = false, down = false;
   double last = problem.rows.front().axes[index_of(axis)];
   for (const Row& row : problem.rows) {
@@ -81,6 +90,22 @@ bool comes_from_both_sides(const Problem& problem, AxisName axis) {
     last = row.axes[index_of(axis)];
   }
   return up && down;
+}
+
+MachineEffect reversal_of(const Problem& problem, AxisName axis) {
+  const std::string letter(1, letter_of(axis));
+  MachineEffect reversal;
+  reversal.id = "reversal." + letter;
+  reversal.title = "difference between the two senses of " + letter;
+  reversal.term = ErrorOfSense{axis};
+  reversal.parameters = {"size"};
+  reversal.formula = "size/2 where the axis came from below, -size/2 where from above";
+  reversal.unit = is_rotary(axis) ? "rad" : "mm";
+  reversal.low = is_rotary(axis) ? 2e-6 : 0.5e-3, reversal.high = is_rotary(axis) ? 2e-4 : 0.03;
+  reversal.consequence = "a program corrects it for one sense only, so its size is counted with U";
+  if (!comes_from_both_sides(problem, axis))
+    reversal.why_not = letter + " comes from one side only";
+  return reversal;
 }
 
 void add_axis(const Problem& problem, AxisName axis, std::vector<MachineEffect>& out) {
@@ -97,22 +122,108 @@ void add_axis(const Problem& problem, AxisName axis, std::vector<MachineEffect>&
   for (std::size_t direction = 0; direction < 6; ++direction) {
     const ErrorName error{true, direction, index_of(axis)};
     if (is_rotary(axis) && range.length() >= whole_turn)
-      add_harmonics(axis, error, out);
+      add_harmonics(axis, error, cyclic_orders, out);
     else
       add_polynomials(axis, range, error, out);
   }
-  MachineEffect reversal;
-  reversal.id = "reversal." + letter;
-  reversal.title = "difference between the two senses of " + letter;
-  reversal.term = ErrorOfSense{axis};
-  reversal.parameters = {"size"};
-  reversal.formula = "size/2 where the axis came from below, -size/2 where from above";
-  reversal.unit = unit;
-  reversal.low = is_rotary(axis) ? 2e-6 : 0.5e-3, reversal.high = is_rotary(axis) ? 2e-4 : 0.03;
-  reversal.consequence = "a program corrects it for one sense only, so its size is counted with U";
-  if (!comes_from_both_sides(problem, axis))
-    reversal.why_not = letter + " comes from one side only";
-  out.push_back(std::move(reversal));
+  out.push_back(reversal_of(problem, axis));
+}
+
+/// Any period that the positions show.
+MachineEffect periodic_of(const Problem& problem, AxisName axis, const ErrorName& error) {
+  MachineEffect one = component(error, axis, "periodic", 1, "periodic in the position");
+  one.id = to_string(error) + ".periodic";
+  std::get<ErrorOfPosition>(one.term).periodic = true;
+  one.parameters = {"cos", "sin"};
+  one.formula = "cos cos(2 pi q/period) + sin sin(2 pi q/period)";
+  if (periods_of(positions_of(problem, axis)).empty())
+    one.why_not =
+        "these positions are too few for a period to be looked for: read out 24 or more, "
+        "closer than half of it";
+  return one;
+}
+
+/// What lies between the positions.
+MachineEffect fine_of(const Problem& problem, AxisName axis, const std::set<int>& orders,
+                      const ErrorName& error) {
+  const std::vector<double> all = positions_of(problem, axis);
+  const std::set<double> different(all.begin(), all.end());
+  const double apart =
+      axis_range(problem, axis).length() / static_cast<double>(different.size() - 1);
+  const std::string letter(1, letter_of(axis));
+  MachineEffect one;
+  one.id = to_string(error) + ".fine";
+  one.title = "errors of " + letter + " between its positions";
+  one.unit = error.angular() ? "rad" : "mm";
+  one.why_not =
+      !orders.empty()
+          ? fmt::format("orders above {} were not read: read out closer positions",
+                        *orders.rbegin())
+          : fmt::format(
+                "positions {:.3g} {} apart show no shorter period than twice that: read out "
+                "closer positions",
+                apart / (is_rotary(axis) ? rad_per_deg : 1.0), is_rotary(axis) ? "deg" : "mm");
+  return one;
+}
+
+void add_zero(const Problem& problem, AxisName axis, bool timed, std::vector<MachineEffect>& out) {
+  const std::string letter(1, letter_of(axis)), what = "the zero of the read-out of " + letter;
+  const TimeSpan times = times_of(problem, axis);
+  MachineEffect drift;
+  drift.id = "read_out." + letter + ".drift";
+  drift.title = "drift of " + what;
+  drift.term = ZeroDrift{axis};
+  drift.parameters = {"over_all"};
+  drift.formula = "over_all (t - begin)/(end - begin)";
+  drift.shape = {{"begin", times.begin_s, "s"}, {"end", times.end_s, "s"}};
+  drift.unit = is_rotary(axis) ? "rad" : "mm";
+  drift.low = is_rotary(axis) ? 2e-6 : 0.5e-3, drift.high = is_rotary(axis) ? 2e-4 : 0.05;
+  drift.consequence = "axis or instrument warmed up: read out again when they are warm";
+  if (!timed || !(times.end_s > times.begin_s))
+    drift.why_not = "the rows have no times: measure with a column t";
+  MachineEffect step = drift;
+  step.id = "read_out." + letter + ".step";
+  step.title = "a step of " + what;
+  step.term = ZeroStep{axis};
+  step.parameters = {"size"};
+  step.formula = "size from the row on";
+  step.shape = {}, step.why_not = "";
+  step.consequence = "the instrument or its reflector moved while the axis was read out";
+  out.push_back(std::move(drift));
+  out.push_back(std::move(step));
+}
+
+/// What read-outs alone show: the position error of their axis, its reversal, and their own zero.
+void add_read_out(const Problem& problem, AxisName axis, bool timed,
+                  std::vector<MachineEffect>& out) {
+  const std::string letter(1, letter_of(axis));
+  const AxisRange range = axis_range(problem, axis);
+  MachineEffect others;
+  others.id = "E*" + letter, others.unit = is_rotary(axis) ? "rad" : "mm";
+  if (range.length() < least_range) {
+    others.title = "errors of " + letter, others.why_not = letter + " was not read out";
+    out.push_back(std::move(others));
+    return;
+  }
+  const ErrorName error{true, index_of(axis), index_of(axis)};
+  others.title = "other errors of " + letter;
+  others.why_not = "a read-out of " + letter + " shows " + to_string(error) +
+                   " alone: measure a ball, a bar or an array";
+  std::set<int> orders;
+  for (const Row& row : problem.rows)
+    if (row.read_out == axis)
+      orders.insert(problem.targets[row.target].orders.begin(),
+                    problem.targets[row.target].orders.end());
+  if (orders.empty()) {
+    add_polynomials(axis, range, error, out);
+    out.push_back(periodic_of(problem, axis, error));
+  } else {
+    add_harmonics(axis, error, std::vector<int>(orders.begin(), orders.end()), out);
+  }
+  out.push_back(fine_of(problem, axis, orders, error));
+  out.push_back(reversal_of(problem, axis));
+  add_zero(problem, axis, timed, out);
+  out.push_back(std::move(others));
 }
 
 void add_drifts(const Problem& problem, bool timed, std::vector<MachineEffect>& out) {
@@ -140,7 +251,15 @@ void add_drifts(const Problem& problem, bool timed, std::vector<MachineEffect>& 
 std::vector<MachineEffect> machine_effects(const Problem& problem, bool timed,
                                            std::span<const MachineEffect> own) {
   std::vector<MachineEffect> out;
-  for (const MachineAxis& axis : problem.machine->axes) add_axis(problem, axis.name, out);
+  for (const MachineAxis& axis : problem.machine->axes)
+    if (problem.read_outs())
+      add_read_out(problem, axis.name, timed, out);
+    else
+      add_axis(problem, axis.name, out);
+  if (problem.read_outs()) {
+    out.insert(out.end(), own.begin(), own.end());
+    return out;
+  }
   add_drifts(problem, timed, out);
   MachineEffect slip;
   slip.id = "ball.slip";

@@ -21,8 +21,9 @@ namespace {
 
 constexpr double times_the_unknown = 4.0;  // twice in amplitude
 
-/// Letter of the axis that a term is of; t of drifts and slips.
+/// Letter of the axis that a term is a function of; t of drifts and slips.
 char letter_of(const MachineTerm& term) {
+  if (std::holds_alternative<ZeroDrift>(term) || std::holds_alternative<ZeroStep>(term)) return 't';
   const auto axis = axis_of(term);
   return axis ? trueaxis::letter_of(*axis) : 't';
 }
@@ -98,13 +99,14 @@ void add_what_gains_less(const Found& search, std::vector<bool>& unknown) {
 
 /// Which of the causes do not get a name: patterns, and what may be part of something unknown (Eqs.
 /// 184, 230). @param findings one each of `search.found`
-std::vector<bool> parts_of_unknown(const Found& search,
-                                   const std::vector<MachineFinding>& findings) {
+/// @param read_outs alone: they show one error, of which every order and degree is a cause
+std::vector<bool> parts_of_unknown(const Found& search, const std::vector<MachineFinding>& findings,
+                                   bool read_outs) {
   std::vector<bool> unknown(findings.size());
   for (std::size_t at = 0; at < findings.size(); ++at)
-    unknown[at] = search.terms[search.found[at]].is_pattern() ||
-                  shares_its_axis(findings[at], search) ||
-                  one_of_three(findings[at], findings, search) || slips_again(at, search);
+    unknown[at] =
+        search.terms[search.found[at]].is_pattern() || shares_its_axis(findings[at], search) ||
+        (!read_outs && one_of_three(findings[at], findings, search)) || slips_again(at, search);
   add_what_gains_less(search, unknown);
   return unknown;
 }
@@ -140,10 +142,9 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
   }
   state_covariance(fit, found, linear::product_transposed(variance * inverse, inverse), out.errors);
   const VectorXd sigma = problem.weights.cwiseInverse();
-  const auto n = static_cast<double>(problem.equations);
-  out.gain.rms_before_mm = std::sqrt(readings.cwiseProduct(sigma).squaredNorm() / n);
-  out.gain.rms_after_mm = std::sqrt(left.cwiseProduct(sigma).squaredNorm() / n);
-  out.noise_mm = std::sqrt(variance * sigma.squaredNorm() / n);
+  out.gain.rms_before_mm = problem.rms_mm(readings.cwiseProduct(sigma));
+  out.gain.rms_after_mm = problem.rms_mm(left.cwiseProduct(sigma));
+  out.noise_mm = std::sqrt(variance) * problem.rms_mm(sigma);
   hold_out(problem, columns, fit.solution.jacobian.cols(), readings, out);
 }
 
@@ -158,12 +159,12 @@ void leave_out_what_warms(Found& search) {
 }
 
 void state_findings(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
-  const double to_rms = std::sqrt(fit.problem.weights.cwiseInverse().squaredNorm()) /
-                        static_cast<double>(fit.problem.equations);
+  const double to_rms = fit.problem.rms_mm(fit.problem.weights.cwiseInverse()) /
+                        std::sqrt(static_cast<double>(fit.problem.equations));
   std::vector<MachineFinding> all;
   for (std::size_t at = 0; at < search.found.size(); ++at)
     all.push_back(finding_of(*search.dictionary, search.terms, search.found, at, search.options));
-  const std::vector<bool> unknown = parts_of_unknown(search, all);
+  const std::vector<bool> unknown = parts_of_unknown(search, all, fit.problem.read_outs());
   for (std::size_t at = 0; at < search.found.size(); ++at) {
     MachineFinding found = all[at];
     found.rms_mm *= to_rms;
@@ -213,6 +214,8 @@ bool is_machine_error(const MachineTerm& term) {
 
 std::optional<AxisName> axis_of(const MachineTerm& term) {
   if (const auto* sense = std::get_if<ErrorOfSense>(&term)) return sense->axis;
+  if (const auto* drift = std::get_if<ZeroDrift>(&term)) return drift->axis;
+  if (const auto* step = std::get_if<ZeroStep>(&term)) return step->axis;
   const auto* error = std::get_if<ErrorOfPosition>(&term);
   if (error == nullptr) return std::nullopt;
   return error->of.value_or(static_cast<AxisName>(error->error.body));
@@ -235,14 +238,18 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
                                   const MachineDiagnoseOptions& options) {
   using namespace calibrate_detail;
   MachineDiagnosis out;
+  if (options.covariances && read_outs_alone(data))
+    throw InputError(
+        data.front().source,
+        "is a read-out, which leaves most errors of the tip unknown, so no program is "
+        "weighed by it: add a measurement of kind ball, bar or array, or run `trueaxis "
+        "machine diagnose` without a program");
   out.false_alarm = options.false_alarm;
   out.baseline = of_read_outs(machine, data, options.calibration);
   const auto fit = fit_tips(machine, data, options.calibration, false, out.baseline);
-  if (!fit)
-    throw InputError(data.front().source,
-                     "is not a measurement of balls: add one of kind ball, bar or array");
-  const bool timed = std::ranges::none_of(data, [](const MachineMeasurement& file) {
-    return file.kind != MeasurementKind::axis && file.time_s.empty();
+  expects(fit.has_value(), "a measurement");
+  const bool timed = std::ranges::none_of(data, [&](const MachineMeasurement& file) {
+    return file.time_s.empty() && (file.kind != MeasurementKind::axis || fit->problem.read_outs());
   });
   const Geometry geometry = geometry_of(fit->problem, out.baseline.errors, fit->solution.places);
   out.effects = machine_effects(fit->problem, timed, options.own_effects);

@@ -9,6 +9,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "infer/classes.hpp"
@@ -211,13 +212,16 @@ namespace {
 
 constexpr std::size_t most_blocks = 30;
 
-/// The block of every row: rotary positions in the order in which they came, cut into blocks.
+/// The block of every row: rotary positions (of read-outs those of the axis) in the order in which
+/// they came, cut into blocks.
 std::vector<std::size_t> blocks_of(const Problem& problem, std::size_t& count) {
   using Rotary = std::array<double, 3>;
-  std::vector<Rotary> different;
+  std::vector<Rotary> different;  // of read-outs: the file and the position of its axis
   std::vector<std::size_t> place;
   for (const Row& row : problem.rows) {
-    const Rotary at{row.axes[3], row.axes[4], row.axes[5]};
+    const Rotary at =
+        row.read_out ? Rotary{static_cast<double>(row.file), row.axes[index_of(*row.read_out)], 0.0}
+                     : Rotary{row.axes[3], row.axes[4], row.axes[5]};
     const auto found = std::ranges::find(different, at);
     place.push_back(static_cast<std::size_t>(found - different.begin()));
     if (found == different.end()) different.push_back(at);
@@ -239,22 +243,29 @@ void hold_out(const Problem& problem, const MatrixXd& columns, Index base, const
       after(static_cast<std::size_t>(columns.cols()));
   std::iota(before.begin(), before.end(), 1U);
   std::iota(after.begin(), after.end(), 1U);
+  const bool lengths = !std::ranges::all_of(problem.rows, &Row::angle);
   std::vector<infer::Fold> folds;
   for (std::size_t block = 0; block < out.blocks; ++block) {
     std::vector<Index> held;
     double sigma2 = 0.0;
     for (std::size_t i = 0; i < problem.rows.size(); ++i) {
-      if (block_of_row[i] != block) continue;
       const Row& row = problem.rows[i];
+      if (block_of_row[i] != block || (lengths && row.angle())) continue;
       for (Index k = 0; k < row.equations(); ++k) held.push_back(row.first + k);
       sigma2 += static_cast<double>(row.equations()) * row.sigma_mm * row.sigma_mm;
     }
+    if (held.empty()) continue;
     const MatrixXd own = all(held, Eigen::all);
     const auto n = static_cast<double>(held.size());
     // Over σ here; mm by the mean σ of the block.
     folds.push_back({linear::gram(own), n, sigma2 / n});
   }
+  out.blocks = folds.size();
   infer::cross_validate(linear::gram(all), folds, before, after, out.gain);
+  if (lengths) return;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // of angles only the ratio
+  for (auto* interval : {&out.gain.held_out_before_mm, &out.gain.held_out_after_mm})
+    interval->value = interval->low = interval->high = none;
 }
 
 }  // namespace trueaxis::calibrate_detail

@@ -74,7 +74,7 @@ PatternScan::PatternScan(const Problem& problem, const Geometry& geometry, const
     for (std::size_t direction = 0; direction < 6; ++direction)
       add(6 * k + direction, direction < 3 ? own : angles);
     for (std::size_t other = 0; other < k; ++other) {
-      if (!moves(other)) continue;
+      if (!moves(other) || problem.read_outs()) continue;
       const auto both = keep(functions_of_two(problem, k, other));
       for (std::size_t direction = 0; direction < 6; ++direction) {
         add(6 * k + direction, both);
@@ -209,12 +209,13 @@ std::vector<Term> PatternScan::finer(const Term& term) const {
 }
 
 constexpr std::size_t patterns_a_set = 12, most_rounds = 3;
+constexpr double least_turns = 1.0 / 360.0;  // to which a period is found, over the range
 
 class Finder {
  public:
   Finder(const TipFit& fit, const Geometry& geometry, const std::vector<MachineEffect>& catalogue,
          const MachineDiagnoseOptions& options, bool timed)
-      : fit_(fit), geometry_(geometry), options_(options) {
+      : fit_(fit), geometry_(geometry), options_(options), catalogue_(catalogue) {
     out_.terms = effect_terms(fit.problem, geometry, catalogue);
     out_.dictionary = of(out_.terms);
     out_.options = {options.false_alarm, out_.dictionary->tests(), 1.0, options.max_findings};
@@ -238,17 +239,41 @@ class Finder {
 
   void search_again() {
     out_.found = infer::search(*out_.dictionary, out_.options);
-    bool moved = false;
-    for (const std::size_t t : Set(out_.found)) moved = refine(t) || moved;
-    if (!moved) return;
-    out_.dictionary = of(out_.terms);
-    out_.found = infer::search(*out_.dictionary, out_.options);
+    for (bool again = true; again;) {
+      bool moved = false;
+      for (const std::size_t t : Set(out_.found)) moved = refine(t) || moved;
+      if (!moved) return;
+      out_.dictionary = of(out_.terms);
+      out_.found = infer::search(*out_.dictionary, out_.options);
+      // What a coarse period leaves is not searched for another cause.
+      again = std::ranges::any_of(out_.found, [&](std::size_t t) { return is_coarse(t); });
+    }
+  }
+
+  /// Of a periodic error whose period may be half a degree of phase better at an end of the range.
+  bool is_coarse(std::size_t t) const {
+    const Term& term = out_.terms[t];
+    return term.is_periodic() && term.reach * range_of_axis(term) > least_turns;
+  }
+  double range_of_axis(const Term& term) const {
+    const auto axis = static_cast<AxisName>(std::get<ErrorOfPosition>(term.of.term).error.body);
+    return axis_range(fit_.problem, axis).length();
+  }
+  /// Whether two periods are one to the resolution of their axis.
+  bool are_one(std::size_t a, std::size_t b) const {
+    const Term &one = out_.terms[a], &other = out_.terms[b];
+    return one.is_periodic() && one.effect() == other.effect() &&
+           std::abs(1.0 / one.period() - 1.0 / other.period()) * range_of_axis(one) < 1.5;
   }
 
   /// Places near that of a term, to which it may be moved.
   std::vector<Term> finer(const Term& term) const {
     if (scan_ && term.is_pattern()) return scan_->finer(term);
     std::vector<Term> out;
+    if (term.is_periodic()) {
+      if (term.reach * range_of_axis(term) > least_turns) return near_period(term);
+      return out;
+    }
     if (!term.is_slip() || term.tests <= 1.0) return out;
     const auto reach = static_cast<std::size_t>(4.0 * term.tests) + 4;
     for (std::size_t row = 1; row < fit_.problem.rows.size(); ++row)
@@ -258,13 +283,26 @@ class Finder {
     return out;
   }
 
+  /// Periods within the step of those that were tried.
+  std::vector<Term> near_period(const Term& term) const {
+    constexpr int places = 20;
+    const auto entry = std::ranges::find(catalogue_, term.effect(), &MachineEffect::id);
+    std::vector<Term> out;
+    for (int i = -places; i <= places; ++i) {
+      out.push_back(periodic_term(fit_.problem, geometry_, *entry,
+                                  1.0 / (1.0 / term.period() + term.reach * i / places)));
+      out.back().reach = term.reach / places;
+    }
+    return out;
+  }
+
   bool refine(std::size_t at) {
     std::vector<Term> near = finer(out_.terms[at]);
     if (near.empty()) return false;
     Set others;
     const std::size_t first = near.size();
     for (const std::size_t t : out_.found) {
-      if (t == at) continue;
+      if (t == at || are_one(t, at)) continue;
       others.push_back(near.size());
       near.push_back(out_.terms[t]);
     }
@@ -331,6 +369,7 @@ class Finder {
   const TipFit& fit_;
   const Geometry& geometry_;
   const MachineDiagnoseOptions& options_;
+  const std::vector<MachineEffect>& catalogue_;
   Found out_;
   std::optional<PatternScan> scan_;
   std::vector<std::size_t> taken_;

@@ -200,6 +200,32 @@ class Planner {
   std::vector<Position> positions_;
 };
 
+/// RV of a read-out: its positions again, in reverse order.
+Plan reversed_read_out(const Problem& problem, std::span<const MachineMeasurement> data,
+                       std::size_t number) {
+  Plan out;
+  out.data.assign(data.begin(), data.end());
+  for (const Row& row : problem.rows) out.data[row.file].noise_mm = row.sigma_mm;
+  MachineMeasurement& file = out.data[number];
+  const std::string letter(1, letter_of(*file.axis));
+  out.plan.code = data.size() == 1 ? "RV" : "RV" + std::to_string(number + 1);
+  out.plan.what = "the same positions of " + letter + " in reverse order" +
+                  (data.size() == 1 ? "" : ", added to " + file.source);
+  out.plan.kind = MeasurementKind::axis;
+  out.plan.axis = file.axis;
+  out.plan.minutes = 1.0 + seconds_a_position / 60.0 * static_cast<double>(file.rows());
+  const std::vector<AxisPositions> there = file.axes;
+  for (std::size_t i = there.size(); i-- > 0;) {
+    file.axes.push_back(there[i]);
+    file.actual.push_back(there[i][index_of(*file.axis)]);
+    out.plan.visits.push_back({1, 0, {}, 0.0, there[i]});
+    if (file.time_s.empty()) continue;
+    const double past = i + 1 < there.size() ? file.time_s[i + 1] - file.time_s[i] : 0.0;
+    file.time_s.push_back(file.time_s.back() + past);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors, double noise_mm) {
@@ -233,7 +259,11 @@ std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors,
 
 std::vector<Plan> plans_for(const Problem& problem, std::span<const MachineMeasurement> data,
                             const ErrorModel& errors, const VectorXd& places) {
-  return Planner(problem, data, errors, places).plans();
+  if (!problem.read_outs()) return Planner(problem, data, errors, places).plans();
+  std::vector<Plan> out;
+  for (std::size_t number = 0; number < data.size(); ++number)
+    out.push_back(reversed_read_out(problem, data, number));
+  return out;
 }
 
 }  // namespace trueaxis::calibrate_detail

@@ -15,7 +15,7 @@ struct Plan {
 
 /// RV the same positions in reverse, L2 a tool 70 mm longer, B2 a ball 60 mm off in radius and
 /// height. AC a grid of five positions of one rotary axis by every 30° of the other. Those that the
-/// machine can do, on the first file of kind ball or bar.
+/// machine can do, on the first file of kind ball or bar. Of read-outs alone RV of each.
 std::vector<Plan> plans_for(const Problem& problem, std::span<const MachineMeasurement> data,
                             const ErrorModel& errors, const VectorXd& places);
 

@@ -30,13 +30,21 @@ struct Term {
   double size_spread = 1.0;         ///< of its logarithm
   std::size_t target = 0, row = 0;  ///< of a step of a ball: its target, and its first row
   std::size_t unit = 0;             ///< of a pattern: the column that its functions multiply
+  double reach = 0.0;               ///< of a period: its frequency lies within, per mm or rad
   std::string letters;              ///< of the axes that it is a function of; t: of the time
   std::optional<PatternPlace> place;  ///< of a local pattern
 
   const std::string& effect() const { return of.id; }
   bool angle() const { return of.unit == "rad"; }
   bool is_pattern() const { return std::holds_alternative<std::monostate>(of.term); }
-  bool is_slip() const { return std::holds_alternative<BallStep>(of.term); }
+  bool is_slip() const {
+    return std::holds_alternative<BallStep>(of.term) || std::holds_alternative<ZeroStep>(of.term);
+  }
+  double period() const { return of.shape.front().value; }  ///< of one that is periodic
+  bool is_periodic() const {
+    const auto* error = std::get_if<ErrorOfPosition>(&of.term);
+    return error != nullptr && error->periodic;
+  }
 };
 
 /// The terms of every effect of a catalogue that these rows may show.
@@ -47,6 +55,10 @@ using Set = infer::Dictionary::Set;
 /// Terms as hypotheses after what is always fitted. @param base columns over σ, of any rank
 infer::Dictionary dictionary_of(const std::vector<Term>& terms, const MatrixXd& base,
                                 const VectorXd& weights, const CalibrationOptions& options);
+
+/// A periodic error of one period, mm or rad.
+Term periodic_term(const Problem& problem, const Geometry& geometry, MachineEffect of,
+                   double period);
 
 /// The slip of a target from a row on.
 Term slip_term(const Problem& problem, const Geometry& geometry, const MachineEffect& of,

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "calibrate/diagnose/term.hpp"
+#include "calibrate/estimate/read_out.hpp"
 #include "infer/size_prior.hpp"
 #include "math/linear_algebra.hpp"
 
@@ -27,6 +30,23 @@ struct Columns {
 
   MatrixXd operator()(std::monostate) const { return {}; }
   MatrixXd operator()(const BallStep&) const { return {}; }
+  MatrixXd operator()(const ZeroStep&) const { return {}; }
+
+  /// A read-out's own zero times a function of the row.
+  template <class Function>
+  VectorXd of_read_out(AxisName axis, const Function& value) const {
+    VectorXd out = VectorXd::Zero(problem.equations);
+    for (const Row& row : problem.rows)
+      if (row.read_out == axis) out[row.first] = value(row);
+    return out;
+  }
+
+  MatrixXd operator()(const ZeroDrift& term) const {
+    const TimeSpan times = times_of(problem, term.axis);
+    return of_read_out(term.axis, [&](const Row& row) {
+      return (row.time_s - times.begin_s) / (times.end_s - times.begin_s) - 0.5;
+    });
+  }
 
   MatrixXd operator()(const ErrorOfPosition& term) const {
     MatrixXd out(problem.equations, static_cast<Index>(term.functions.size()));
@@ -38,6 +58,8 @@ struct Columns {
 
   /// + or − half by the way in which the axis came, which files that follow each other go on with.
   MatrixXd operator()(const ErrorOfSense& term) const {
+    if (problem.read_outs())
+      return of_read_out(term.axis, [](const Row& row) { return row.sense; });
     const std::size_t index = index_of(term.axis), first = is_rotary(term.axis) ? 3 : 0;
     const auto& axes = problem.machine->axes;
     const auto axis = std::ranges::find(axes, term.axis, &MachineAxis::name);
@@ -62,7 +84,13 @@ struct Columns {
   }
 };
 
-Term term_of(const MachineEffect& of) {
+/// Whether an order of a turn, which goes on everywhere.
+bool shows_a_turn(const MachineEffect& of) {
+  return !of.shape.empty() && of.shape.front().name == "order";
+}
+
+/// @param problem where an error is known, if it was read out
+Term term_of(const Problem& problem, const MachineEffect& of) {
   Term term;
   term.of = of;
   if (of.low > 0.0) {
@@ -73,15 +101,21 @@ Term term_of(const MachineEffect& of) {
   const auto* error = std::get_if<ErrorOfPosition>(&of.term);
   for (std::size_t i = 0; error != nullptr && !error->of && i < error->functions.size(); ++i)
     term.errors.push_back({error->error, error->functions[i], 0.0});
+  if (problem.read_outs() && !term.errors.empty() && !shows_a_turn(of)) {
+    const AxisRange range = axis_range(problem, static_cast<AxisName>(error->error.body));
+    for (ErrorTerm& one : term.errors) one.known_over = {range.low, range.high};
+  }
   return term;
 }
 
 void add_slips(const Problem& problem, const Geometry& geometry, const MachineEffect& of,
                std::vector<Term>& terms) {
   for (std::size_t t = 0; t < problem.targets.size(); ++t) {
+    const auto* zero = std::get_if<ZeroStep>(&of.term);
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < problem.rows.size(); ++i)
-      if (problem.rows[i].target == t) rows.push_back(i);
+      if (problem.rows[i].target == t && (!zero || problem.rows[i].read_out == zero->axis))
+        rows.push_back(i);
     const std::size_t step = std::max<std::size_t>(1, rows.size() / slips_a_target);
     for (std::size_t i = step; i < rows.size(); i += step) {
       terms.push_back(slip_term(problem, geometry, of, t, rows[i]));
@@ -94,20 +128,34 @@ void add_slips(const Problem& problem, const Geometry& geometry, const MachineEf
 
 Term slip_term(const Problem& problem, const Geometry& geometry, const MachineEffect& of,
                std::size_t target, std::size_t row) {
-  Term term = term_of(of);
+  Term term = term_of(problem, of);
   const Row& from = problem.rows[row];
   term.of.shape = {{"file", static_cast<double>(from.file + 1), "1"},
                    {"row", static_cast<double>(from.row + 1), "1"},
                    {"setup", static_cast<double>(problem.targets[target].setup), "1"},
                    {"ball", static_cast<double>(problem.targets[target].ball), "1"}};
+  if (problem.targets[target].zero) term.of.shape.resize(2);
   term.target = target;
   term.row = row;
-  term.columns = geometry.part_shift;
-  for (std::size_t i = 0; i < problem.rows.size(); ++i) {
-    const Row& one = problem.rows[i];
-    if (one.target != target || i < row)
-      term.columns.middleRows(one.first, one.equations()).setZero();
-  }
+  term.columns = geometry.places.middleCols(problem.targets[target].first,
+                                            static_cast<Index>(of.parameters.size()));
+  term.columns.topRows(from.first).setZero();
+  return term;
+}
+
+Term periodic_term(const Problem& problem, const Geometry& geometry, MachineEffect of,
+                   double period) {
+  auto& error = std::get<ErrorOfPosition>(of.term);
+  const bool angle = is_rotary(static_cast<AxisName>(error.error.body));
+  error.functions = {FourierError{{{1.0, 1.0, 0.0}}, period},
+                     FourierError{{{1.0, 0.0, 1.0}}, period}};
+  of.shape = {{"period", period, angle ? "rad" : "mm"}};
+  of.title += fmt::format(", period {:.4g} {}", angle ? period / rad_per_deg : period,
+                          angle ? "deg" : "mm");
+  Term term = term_of(problem, of);
+  term.columns = Columns{problem, geometry}(error);
+  term.reach = 1.0 / (frequencies_a_width *
+                      axis_range(problem, static_cast<AxisName>(error.error.body)).length());
   return term;
 }
 
@@ -127,11 +175,17 @@ std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
   std::vector<Term> terms;
   for (const MachineEffect& effect : catalogue) {
     if (!effect.why_not.empty()) continue;
-    if (std::holds_alternative<BallStep>(effect.term)) {
-      add_slips(problem, geometry, effect, terms);
+    terms.push_back(term_of(problem, effect));
+    if (terms.back().is_slip() || terms.back().is_periodic()) {
+      terms.pop_back();
+      if (const auto* error = std::get_if<ErrorOfPosition>(&effect.term))
+        for (const double period :
+             periods_of(positions_of(problem, static_cast<AxisName>(error->error.body))))
+          terms.push_back(periodic_term(problem, geometry, effect, period));
+      else
+        add_slips(problem, geometry, effect, terms);
       continue;
     }
-    terms.push_back(term_of(effect));
     terms.back().columns = std::visit(Columns{problem, geometry}, effect.term);
   }
   return terms;

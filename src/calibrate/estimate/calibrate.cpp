@@ -104,6 +104,7 @@ void describe(const Problem& problem, const std::vector<Unknown>& unknowns,
 
 void place_balls(const Problem& problem, const VectorXd& places, Calibration& out) {
   for (const Target& target : problem.targets) {
+    if (target.zero) continue;
     const double* const place = places.data() + target.first;
     PlacedBall ball{
         target.file, target.setup, target.ball, rigid::array(target.point(place, 0.0)), {}};
@@ -111,10 +112,6 @@ void place_balls(const Problem& problem, const VectorXd& places, Calibration& ou
       ball.direction = rigid::array(target.point(place, 1.0) - target.point(place, 0.0));
     out.balls.push_back(ball);
   }
-}
-
-double rms_mm(const Problem& problem, const VectorXd& residuals_mm) {
-  return std::sqrt(residuals_mm.squaredNorm() / static_cast<double>(problem.equations));
 }
 
 /// σ of files that state none becomes that of the residuals; once is enough, as what is kept
@@ -126,6 +123,17 @@ void estimate_noise(std::span<const MachineMeasurement> data, const Solution& so
     if (data[row.file].noise_mm) continue;
     row.sigma_mm = sigma_mm;
     problem.weights.segment(row.first, row.equations()).setConstant(1.0 / sigma_mm);
+  }
+}
+
+/// σ of read-outs that state none becomes what their own fit leaves, which the diagnosis scales.
+void take_noise(std::span<const MachineMeasurement> data, const std::vector<AxisReadOut>& read_outs,
+                Problem& problem) {
+  for (Row& row : problem.rows) {
+    const double noise = read_outs[row.file].noise;
+    if (data[row.file].noise_mm || !(noise > 0.0)) continue;
+    row.sigma_mm = noise;
+    problem.weights[row.first] = 1.0 / noise;
   }
 }
 
@@ -150,15 +158,20 @@ void summarise_read_outs(Calibration& out) {
 std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMeasurement> data,
                                const CalibrationOptions& options, bool array_errors,
                                Calibration& out) {
-  TipFit fit{make_problem(machine, data, out.errors), {}, {}, out.errors};
+  const bool alone = read_outs_alone(data);
+  if (alone && array_errors) return std::nullopt;
+  const ErrorModel& given = alone ? options.errors : out.errors;
+  TipFit fit{make_problem(machine, data, given), {}, {}, given};
   Problem& problem = fit.problem;
-  if (problem.rows.empty()) return std::nullopt;
-  fit.unknowns = location_unknowns(machine, options.largest_length_mm, options.largest_angle_rad);
+  if (alone)
+    take_noise(data, out.read_outs, problem);
+  else
+    fit.unknowns = location_unknowns(machine, options.largest_length_mm, options.largest_angle_rad);
   for (const MachineMeasurement& file : data)
     if (array_errors && file.kind == MeasurementKind::array)
       add_array_unknowns(file, options.largest_length_mm, fit.unknowns);
   fit.solution = solve(problem, fit.given, fit.unknowns);
-  if (!problem.noise_stated && fit.solution.freedom > 0.0) {
+  if (!alone && !problem.noise_stated && fit.solution.freedom > 0.0) {
     estimate_noise(data, fit.solution, problem);
     fit.solution = solve(problem, fit.given, fit.unknowns);
   }
@@ -175,13 +188,12 @@ std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMe
   out.equations = static_cast<std::size_t>(problem.equations);
   out.unknowns = static_cast<std::size_t>(solution.jacobian.cols());
   const VectorXd sigma = problem.weights.cwiseInverse();
-  if (problem.noise_stated) out.stated_noise_mm = rms_mm(problem, sigma);
-  out.rms_after_mm = rms_mm(problem, solution.residuals.cwiseProduct(sigma));
+  if (problem.noise_stated) out.stated_noise_mm = problem.rms_mm(sigma);
+  out.rms_after_mm = problem.rms_mm(solution.residuals.cwiseProduct(sigma));
   out.rms_parameters_mm = out.rms_after_mm;
-  out.rms_before_mm =
-      rms_mm(problem, problem.residuals(fit.given, best_places(problem, fit.given)));
-  out.noise_mm = std::sqrt((out.noise_basis == NoiseBasis::stated ? 1.0 : solution.variance) *
-                           sigma.squaredNorm() / static_cast<double>(sigma.size()));
+  out.rms_before_mm = problem.rms_mm(problem.residuals(fit.given, best_places(problem, fit.given)));
+  out.noise_mm = std::sqrt(out.noise_basis == NoiseBasis::stated ? 1.0 : solution.variance) *
+                 problem.rms_mm(sigma);
   return fit;
 }
 
@@ -216,7 +228,7 @@ Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement
   const Eigen::VectorXd places = take_component_errors(*fit, out);
   out.balls.clear();
   place_balls(fit->problem, places, out);
-  out.rms_after_mm = rms_mm(fit->problem, fit->problem.residuals(out.errors, places));
+  out.rms_after_mm = fit->problem.rms_mm(fit->problem.residuals(out.errors, places));
   return out;
 }
 

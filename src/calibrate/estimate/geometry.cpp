@@ -2,7 +2,7 @@
 #include "calibrate/estimate/geometry.hpp"
 
 #include <algorithm>
-#include <ranges>
+#include <limits>
 
 #include "machine/screw.hpp"
 
@@ -31,9 +31,25 @@ void fill_unit_errors(const Problem& problem, const ErrorModel& errors, const Ve
 
 }  // namespace
 
+std::vector<double> positions_of(const Problem& problem, AxisName axis) {
+  std::vector<double> out;
+  for (const Row& row : problem.rows)
+    if (row.tells_of(axis)) out.push_back(row.axes[index_of(axis)]);
+  return out;
+}
+
+TimeSpan times_of(const Problem& problem, AxisName axis) {
+  TimeSpan out{std::numeric_limits<double>::max(), 0.0};
+  for (const Row& row : problem.rows)
+    if (row.tells_of(axis))
+      out = {std::min(out.begin_s, row.time_s), std::max(out.end_s, row.time_s)};
+  return out;
+}
+
 AxisRange axis_range(const Problem& problem, AxisName axis) {
-  const auto at = [&](const Row& row) { return row.axes[index_of(axis)]; };
-  const auto [low, high] = std::ranges::minmax(problem.rows | std::views::transform(at));
+  const std::vector<double> at = positions_of(problem, axis);
+  if (at.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(at);
   return {low, high};
 }
 
@@ -59,6 +75,7 @@ Geometry geometry_of(const Problem& problem, const ErrorModel& errors, const Vec
   for (const Row& row : problem.rows) {
     const Index n = row.equations();
     const Target& target = problem.targets[row.target];
+    if (target.zero) continue;
     // ∂/∂(place) = g R_w, where g is what the equations see of a shift of the ball in M.
     const MatrixXd place = out.places.block(row.first, target.first, n, 3);
     const rigid::Motion workpiece = actual_ends(model.compiled(), row.axes).workpiece;

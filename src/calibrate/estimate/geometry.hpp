@@ -33,7 +33,16 @@ MatrixXd times_rows(const Problem& problem, MatrixXd columns, const Function& va
 VectorXd error_column(const Problem& problem, const Geometry& geometry, const ErrorTerm& error,
                       std::optional<AxisName> of = {});
 
-/// The range of an axis over all rows.
+/// The positions of an axis in all rows that tell of it.
+std::vector<double> positions_of(const Problem& problem, AxisName axis);
+
+/// When those rows were read.
+struct TimeSpan {
+  double begin_s = 0.0, end_s = 0.0;
+};
+TimeSpan times_of(const Problem& problem, AxisName axis);
+
+/// Their range.
 struct AxisRange {
   double low = 0.0, high = 0.0;
   double length() const { return high - low; }

@@ -264,7 +264,7 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
                            const CalibrationOptions& options, const Calibration& found,
                            double left_by_all_mm) {
   if (const std::string why = read_out_mistake(data, found); !why.empty()) return why;
-  if (found.equations == 0) return "";
+  if (found.equations == 0 || found.balls.empty()) return "";  // read-outs alone
   if (found.converged && found.rms_after_mm * far_too_small < found.stated_noise_mm)
     return fmt::format(
         "the readings scatter by {:.2g} µm, but their stated noise is {:.2g} µm: check the unit of "

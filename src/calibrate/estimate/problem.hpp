@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,15 +14,16 @@
 namespace trueaxis::calibrate_detail {
 
 /// What the tip is compared with, in the workpiece's body (M, zero position): a ball's centre, or
-/// the straight line that the balls of a bar lie on. Its place is unknown.
+/// the straight line that the balls of a bar lie on; of a read-out its zero. Its place is unknown.
 struct Target {
   std::size_t file = 0;
   int setup = 0, ball = 0;
-  bool line = false;
+  bool line = false, zero = false;  ///< zero: where a read-out has its 0, one number
+  std::vector<int> orders;          ///< of a turn that a read-out was read all around
   Eigen::Vector3d direction = Eigen::Vector3d::Zero(), across[2] = {direction, direction};
   Index first = 0;  ///< of its unknowns among all places
 
-  Index unknowns() const { return line ? 5 : 3; }
+  Index unknowns() const { return zero ? 1 : line ? 5 : 3; }
   /// The ball at s; `place` are the target's own unknowns.
   Eigen::Vector3d point(const double* place, double s) const;
   /// Its derivatives, a column an unknown.
@@ -32,13 +35,21 @@ struct Row {
   MeasurementKind kind = MeasurementKind::ball;
   AxisPositions axes{};
   double tool_length_mm = 0.0, along_mm = 0.0, time_s = 0.0, sigma_mm = 0.0;
-  Eigen::Vector3d observed = Eigen::Vector3d::Zero();  ///< ball: the deviation; bar: L first
-  Index first = 0;                                     ///< of its equations
+  /// ball: the deviation; bar: L first; read-out: actual less command first, mm or rad
+  Eigen::Vector3d observed = Eigen::Vector3d::Zero();
+  std::optional<AxisName> read_out{};  ///< the axis that alone was read
+  double sense = 0.0;                  ///< of a read-out: ±0.5 by the side that it came from
+  Index first = 0;                     ///< of its equations
 
-  Index equations() const { return kind == MeasurementKind::bar ? 1 : 3; }
+  Index equations() const {
+    return kind == MeasurementKind::bar || kind == MeasurementKind::axis ? 1 : 3;
+  }
+  bool tells_of(AxisName axis) const { return read_out.value_or(axis) == axis; }
+  bool angle() const { return read_out && is_rotary(*read_out); }
 };
 
-/// Rows of all files of kinds ball, bar and array in order, and what they are compared with.
+/// Rows of all files of kinds ball, bar and array in order, and what they are compared with. For
+/// read-outs alone, a row a reading: an observation of the position error of its axis itself.
 struct Problem {
   const Machine* machine = nullptr;
   std::vector<Target> targets;
@@ -48,7 +59,10 @@ struct Problem {
   VectorXd start;            ///< places from the machine with the errors that were given
   VectorXd weights;          ///< 1/σ of every equation
 
-  /// Observed − predicted, mm, a row three equations (a bar's one). Eqs. 170, 171.
+  bool read_outs() const { return !targets.empty() && targets.front().zero; }
+  /// RMS of numbers of the equations, without those of rotary axes' read-outs; of these alone NaN.
+  double rms_mm(const VectorXd& of_equations_mm) const;
+  /// Observed − predicted, mm, a row three equations (a bar's or a read-out's one). Eqs. 170, 171.
   VectorXd residuals(const ErrorModel& errors, const VectorXd& places) const;
   /// Derivatives of the prediction by the places. Eq. 172.
   MatrixXd places_jacobian(const ErrorModel& errors, const VectorXd& places) const;
@@ -57,8 +71,13 @@ struct Problem {
                     const VectorXd& places) const;
 };
 
+inline bool read_outs_alone(std::span<const MachineMeasurement> data) {
+  return std::ranges::all_of(
+      data, [](const MachineMeasurement& file) { return file.kind == MeasurementKind::axis; });
+}
+
 /// σ of files that state none; what is estimated from the residuals replaces it.
-inline constexpr double unstated_noise_mm = 1e-3;
+inline constexpr double unstated_noise_mm = 1e-3, unstated_noise_rad = 5e-6;
 
 /// @throws InputError with every ball that was measured at one position only, and bars of fewer
 /// than three balls

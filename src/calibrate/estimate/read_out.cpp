@@ -128,20 +128,9 @@ double widest_gap_rad(const std::vector<double>& position_rad) {
   return widest;
 }
 
-/// Of a rotary axis that was read all around: what it does repeats itself every turn. Orders of
-/// which half a wave is wider than every gap, and those of the gear, which turns `gear_ratio`
-/// times.
+/// Of a rotary axis that was read all around: what it does repeats itself every turn.
 Choice of_turn(const PeriodicFit& fit, const MachineMeasurement& file, int max_orders) {
-  const double highest = 0.5 / widest_gap_rad(fit.position());
-  std::vector<int> orders = fit.orders_up_to(max_orders, two_pi, highest);
-  const auto room = fit.position().size() / 6;
-  for (int k = 1; file.gear_ratio && k <= most_gear_orders; ++k) {
-    const int order = k * *file.gear_ratio;
-    if (order / two_pi <= highest && orders.size() < room &&
-        std::ranges::find(orders, order) == orders.end())
-      orders.push_back(order);
-  }
-  return choose(fit, two_pi, std::move(orders));
+  return choose(fit, two_pi, orders_of_turn(fit.position(), file.gear_ratio, max_orders));
 }
 
 /// What is fitted to a read-out, in addition to the reversal value if it was read in both senses. A
@@ -153,26 +142,6 @@ struct ReadOutModel {
   Choice choice;
   bool repeats = false;  ///< its errors are known everywhere
 };
-
-/// The sense in which each position was approached, ±0.5: that of the step to it, or of the next
-/// one if there is none. Empty: not both senses, or they have less than half of the range in
-/// common.
-std::vector<double> senses_of(const std::vector<double>& position) {
-  std::vector<double> sense(position.size(), 0.0);
-  double next = 0.0;
-  for (std::size_t i = position.size(); i-- > 0;) {
-    const double step = i > 0 ? position[i] - position[i - 1] : 0.0;
-    sense[i] = step != 0.0 ? std::copysign(0.5, step) : next;
-    next = step != 0.0 ? sense[i] : next;
-  }
-  std::vector<double> up, down;
-  for (std::size_t i = 0; i < position.size(); ++i)
-    (sense[i] > 0.0 ? up : down).push_back(position[i]);
-  if (std::min(up.size(), down.size()) < least_of_a_sense) return {};
-  const Extent rising = range_of(up), falling = range_of(down);
-  const double common = std::min(rising.high, falling.high) - std::max(rising.low, falling.low);
-  return common > 0.5 * range_of(position).length() ? sense : std::vector<double>{};
-}
 
 ReadOutModel model_of(const MachineMeasurement& file, std::vector<double> position,
                       std::vector<double> error, int max_orders) {
@@ -214,7 +183,6 @@ void add_uncertainty(const std::array<double, 3>& factors, UncertainAmount amoun
 /// (docs/reference/calibration.md, signs).
 void add_errors(const MachineAxis& axis, const AxisReadOut& read_out, Calibration& out) {
   const std::size_t body = index_of(axis.name), first = is_rotary(axis.name) ? 3 : 0;
-  const bool against = axis.carries_workpiece && out.errors.sign == ErrorSign::moving_part;
   std::vector<double> powers{0.0};
   PolynomialError polynomial = legendre(0, read_out.low, read_out.high);
   for (std::size_t degree = 1; degree < read_out.polynomial.size(); ++degree) {
@@ -229,8 +197,7 @@ void add_errors(const MachineAxis& axis, const AxisReadOut& read_out, Calibratio
     fourier.terms.push_back({static_cast<double>(one.order), one.cos.value, one.sin.value});
   std::optional<std::array<double, 2>> known;
   if (!read_out.repeats) known = {read_out.low, read_out.high};
-  std::array<double, 3> factors{};
-  for (std::size_t i = 0; i < 3; ++i) factors[i] = (against ? -1.0 : 1.0) * axis.direction[i];
+  const std::array<double, 3> factors = read_out_factors(axis, out.errors.sign);
   const ErrorName along{true, first, body};
   using Shape = UncertainAmount::Shape;
   for (std::size_t degree = 1; degree < read_out.polynomial.size(); ++degree)
@@ -261,6 +228,55 @@ void check(const MachineMeasurement& file) {
 }
 
 }  // namespace
+
+std::vector<double> senses_of(const std::vector<double>& position) {
+  std::vector<double> sense(position.size(), 0.0);
+  double next = 0.0;
+  for (std::size_t i = position.size(); i-- > 0;) {
+    const double step = i > 0 ? position[i] - position[i - 1] : 0.0;
+    sense[i] = step != 0.0 ? std::copysign(0.5, step) : next;
+    next = step != 0.0 ? sense[i] : next;
+  }
+  std::vector<double> up, down;
+  for (std::size_t i = 0; i < position.size(); ++i)
+    (sense[i] > 0.0 ? up : down).push_back(position[i]);
+  if (std::min(up.size(), down.size()) < least_of_a_sense) return {};
+  const Extent rising = range_of(up), falling = range_of(down);
+  const double common = std::min(rising.high, falling.high) - std::max(rising.low, falling.low);
+  return common > 0.5 * range_of(position).length() ? sense : std::vector<double>{};
+}
+
+std::vector<int> orders_of_turn(const std::vector<double>& position_rad,
+                                std::optional<int> gear_ratio, int max_orders) {
+  const double widest = widest_gap_rad(position_rad), highest = 0.5 / widest;
+  if (widest > whole_turn_gap_rad) return {};
+  std::vector<int> orders =
+      PeriodicFit(position_rad, position_rad, 1).orders_up_to(max_orders, two_pi, highest);
+  const auto room = position_rad.size() / 6;
+  for (int k = 1; gear_ratio && k <= most_gear_orders; ++k) {
+    const int order = k * *gear_ratio;
+    if (order / two_pi <= highest && orders.size() < room &&
+        std::ranges::find(orders, order) == orders.end())
+      orders.push_back(order);
+  }
+  return orders;
+}
+
+std::vector<double> periods_of(const std::vector<double>& position) {
+  const Band band = band_of(position);
+  std::vector<double> periods;
+  for (double at = band.low; position.size() >= least_readings && at <= band.high;
+       at += oversampling / frequencies_a_width * band.step)
+    periods.push_back(1.0 / at);
+  return periods;
+}
+
+std::array<double, 3> read_out_factors(const MachineAxis& axis, ErrorSign sign) {
+  const bool against = axis.carries_workpiece && sign == ErrorSign::moving_part;
+  std::array<double, 3> factors{};
+  for (std::size_t i = 0; i < 3; ++i) factors[i] = (against ? -1.0 : 1.0) * axis.direction[i];
+  return factors;
+}
 
 AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
   check(file);

@@ -148,6 +148,9 @@ class Chain final : public ceres::CostFunction {
   const std::vector<Unknown>& kept_;
 };
 
+/// The places of read-outs are means, which they begin at.
+bool is_solved(const Problem& problem) { return problem.read_outs(); }
+
 /// @returns what Ceres says where it did not converge, else ""
 std::string minimise(Chain& chain, VectorXd& at) {
   ceres::Problem::Options ownership;
@@ -185,7 +188,7 @@ VectorXd best_places(const Problem& problem, const ErrorModel& errors) {
   const std::vector<Unknown> none;
   Chain chain(problem, errors, none);
   VectorXd at = problem.start;
-  minimise(chain, at);
+  if (!is_solved(problem)) minimise(chain, at);
   return at;
 }
 
@@ -199,7 +202,7 @@ Solution solve(const Problem& problem, const ErrorModel& given,
   Chain chain(problem, given, kept);
   VectorXd at = VectorXd::Zero(chain.size());
   at.tail(problem.places) = problem.start;
-  out.message = minimise(chain, at);
+  if (!is_solved(problem)) out.message = minimise(chain, at);
   out.converged = out.message.empty();
   out.places = chain.places(at.data());
   out.unknowns = VectorXd::Zero(count);

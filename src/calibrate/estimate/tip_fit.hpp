@@ -73,8 +73,9 @@ struct TipFit {
 Calibration of_read_outs(const Machine& machine, std::span<const MachineMeasurement> data,
                          const CalibrationOptions& options);
 
-/// Adds the fit to `out`; nothing where there is no such file. `array_errors`: position and
-/// straightness of the axes of arrays are unknown too.
+/// Adds the fit to `out`. `array_errors`, a calibration: position and straightness of the axes of
+/// arrays are unknown too, and read-outs alone, which were fitted before, give nothing. Otherwise
+/// these are fitted by their zeros, for a diagnosis.
 std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMeasurement> data,
                                const CalibrationOptions& options, bool array_errors,
                                Calibration& out);

@@ -40,7 +40,8 @@ Json finding_json(const MachineFinding& finding) {
 }
 
 /// The alternatives of `MachineTerm`, in their order.
-const Json kinds_of_term[] = {nullptr, "position", "sense", "tip_drift", "ball_step"};
+const Json kinds_of_term[] = {nullptr,     "position",   "sense",    "tip_drift",
+                              "ball_step", "zero_drift", "zero_step"};
 static_assert(std::variant_size_v<MachineTerm> == std::size(kinds_of_term));
 
 /// The meaning of each id of the catalogue, so that nobody takes an id apart: its kind is the
@@ -90,6 +91,15 @@ Json plan_json(const MachinePlan& plan) {
 
 /// Where to go: a table with the columns of a measurement, and where the balls are.
 Json measurement_json(const MachinePlan& plan, const Machine& machine) {
+  if (plan.axis) {
+    const double unit = is_rotary(*plan.axis) ? rad_per_deg : 1.0;
+    Json rows = Json::array();
+    for (const PlannedVisit& visit : plan.visits)
+      rows.push_back(Json::array({number(visit.axes[index_of(*plan.axis)] / unit)}));
+    return {{"columns", Json::array({is_rotary(*plan.axis) ? "command[deg]" : "command[mm]"})},
+            {"balls", Json::array()},
+            {"rows", rows}};
+  }
   Json columns{"setup", "ball"}, rows = Json::array(), balls = Json::array();
   std::vector<std::size_t> axes;
   for (std::size_t k = 0; k < axis_count; ++k)
@@ -121,7 +131,8 @@ Json next_json(const MachineDiagnosis& d, const Machine& machine) {
 
 Json gain_json(const MachineDiagnosis& d) {
   Json json = explained_object(d.gain);
-  json["blocks"] = std::to_string(d.blocks) + " blocks of rotary positions";
+  json["blocks"] =
+      std::to_string(d.blocks) + " blocks of " + (d.of_read_outs() ? "" : "rotary ") + "positions";
   return json;
 }
 

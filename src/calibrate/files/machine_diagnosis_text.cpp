@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <map>
 
 #include "base/text.hpp"
@@ -13,9 +14,7 @@ namespace trueaxis {
 namespace {
 
 std::string finding_text(const MachineFinding& finding) {
-  std::string text = fmt::format("{}: {}, {} in the readings (p {:.2g})\n", finding.effect(),
-                                 small_size(finding.size, finding.cause.unit),
-                                 layout::um(finding.rms_mm), finding.p_value);
+  std::string text = fmt::format("{} (p {:.2g})\n", size_in_readings(finding), finding.p_value);
   text += layout::wrapped("  ", finding.cause.consequence);
   if (finding.rivals.empty()) return text;
   const auto with_probability = [](const Rival& rival) {
@@ -46,11 +45,13 @@ std::string not_observable_text(const MachineDiagnosis& d) {
 }  // namespace
 
 std::string machine_diagnosis_text(const MachineDiagnosis& d) {
-  std::string text = d.verdict == DiagnosisVerdict::ideal
-                         ? "no errors other than the location errors were found\n"
-                     : d.verdict == DiagnosisVerdict::effects
-                         ? "in addition to the location errors:\n"
-                         : "in addition to the location errors, partly unexplained:\n";
+  const bool alone = d.of_read_outs();
+  std::string text =
+      d.verdict == DiagnosisVerdict::ideal
+          ? alone ? "no errors were found in the read-outs\n"
+                  : "no errors other than the location errors were found\n"
+          : std::string(alone ? "in the read-outs" : "in addition to the location errors") +
+                (d.verdict == DiagnosisVerdict::effects ? ":\n" : ", partly unexplained:\n");
   for (const MachineFinding& finding : d.findings) text += finding_text(finding);
   for (const MachineUnexplained& one : d.unexplained)
     text += fmt::format("unexplained: {}, {} (p {:.2g})\n", one.pattern,
@@ -58,10 +59,12 @@ std::string machine_diagnosis_text(const MachineDiagnosis& d) {
   for (const std::string& remark : d.remarks) text += layout::wrapped("note: ", remark);
   for (const QualityCheck& check : d.checks)
     if (check.found) text += layout::wrapped("check: ", check.text);
-  text += fmt::format("RMS {} -> {}; cross-validated {} -> {} ({} blocks of rotary positions)\n",
-                      layout::um(d.gain.rms_before_mm), layout::um(d.gain.rms_after_mm),
-                      layout::um(d.gain.held_out_before_mm.value),
-                      layout::um(d.gain.held_out_after_mm.value), d.blocks);
+  if (std::isfinite(d.gain.rms_before_mm))
+    text +=
+        fmt::format("RMS {} -> {}; cross-validated {} -> {} ({} blocks of {}positions)\n",
+                    layout::um(d.gain.rms_before_mm), layout::um(d.gain.rms_after_mm),
+                    layout::um(d.gain.held_out_before_mm.value),
+                    layout::um(d.gain.held_out_after_mm.value), d.blocks, alone ? "" : "rotary ");
   if (!d.not_observable.empty()) text += "not seen at these positions\n" + not_observable_text(d);
   if (const MachinePlan* plan = d.next())
     text += fmt::format("next: {}, {} ({:.0f} min)\n", plan->code, plan->what, plan->minutes);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "base/counted.hpp"
 #include "format/text_layout.hpp"
 
@@ -31,8 +33,7 @@ std::string small_estimate(const std::string& name, const Estimate& estimate, do
 
 /// The cause, its size and its rival causes; then in words, with what follows from it.
 std::string finding_screen(const MachineFinding& finding) {
-  std::string text = fmt::format("found  {}: {}, {} in the readings", finding.effect(),
-                                 small_size(finding.size, finding.cause.unit), um(finding.rms_mm));
+  std::string text = "found  " + size_in_readings(finding);
   if (!finding.rivals.empty()) {
     std::vector<std::string> rivals;
     for (const Rival& rival : finding.rivals)
@@ -66,6 +67,12 @@ std::string read_out_screen(const AxisReadOut& one, double k) {
 
 }  // namespace
 
+std::string size_in_readings(const MachineFinding& finding) {
+  const std::string size = small_size(finding.size, finding.cause.unit);
+  return finding.effect() + ": " + size +
+         (std::isfinite(finding.rms_mm) ? ", " + um(finding.rms_mm) + " in the readings" : "");
+}
+
 std::string small_size(double size, const std::string& unit) {
   return unit == "rad" ? fmt::format("{:.3g} µrad", 1e6 * size) : um(size);
 }
@@ -79,7 +86,9 @@ std::string calibration_screen(const Calibration& c) {
         c.parameters.size(), c.equations, um(c.rms_before_mm), um(c.rms_after_mm), um(c.noise_mm),
         to_string(c.noise_basis));
   else
-    text = "DONE: position errors found\n";
+    text =
+        "DONE: position errors found\n"
+        "next   trueaxis machine diagnose with the same data: names their causes\n";
   for (const AxisReadOut& one : c.read_outs) text += read_out_screen(one, c.coverage_factor);
   std::vector<std::string> errors, shown, open;
   for (const CalibratedParameter& one : c.parameters)
@@ -120,14 +129,16 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
 
 std::string machine_diagnosis_line(const MachineDiagnosis& d, const char* arrow) {
   const std::size_t found = d.findings.size(), unexplained = d.unexplained.size();
-  std::string text = d.verdict == DiagnosisVerdict::ideal
-                         ? "IDEAL: no error found in addition to the location errors"
-                         : fmt::format("{}: {} error{} found in addition to the location errors",
-                                       unexplained > 0 ? "UNEXPLAINED" : "EFFECTS",
-                                       found + unexplained, found + unexplained == 1 ? "" : "s");
+  const char* const where =
+      d.of_read_outs() ? "in the read-outs" : "in addition to the location errors";
+  std::string text =
+      d.verdict == DiagnosisVerdict::ideal
+          ? fmt::format("IDEAL: no error found {}", where)
+          : fmt::format("{}: {} error{} found {}", unexplained > 0 ? "UNEXPLAINED" : "EFFECTS",
+                        found + unexplained, found + unexplained == 1 ? "" : "s", where);
   if (unexplained > 0) text += fmt::format(", {} without a known cause", unexplained);
   const Explained& gain = d.gain;
-  if (d.blocks > 0 || gain.rms_before_mm > 0.0)
+  if (std::isfinite(gain.rms_before_mm) && (d.blocks > 0 || gain.rms_before_mm > 0.0))
     text += fmt::format("; RMS {} {} {}, cross-validated {} {} {}", um(gain.rms_before_mm), arrow,
                         um(gain.rms_after_mm), um(gain.held_out_before_mm.value), arrow,
                         um(gain.held_out_after_mm.value));

@@ -12,6 +12,8 @@ namespace trueaxis {
 
 /// mm or rad, as sizes of a machine's errors are shown.
 std::string small_size(double size, const std::string& unit);
+/// A cause with its size, and what it is in the readings where that is a length.
+std::string size_in_readings(const MachineFinding& finding);
 
 std::string calibration_screen(const Calibration& calibration);
 

@@ -14,6 +14,17 @@ std::string measurement_plan_csv(const MachineDiagnosis& diagnosis, const Machin
   std::string text =
       fmt::format("# schema: trueaxis.measurement_plan/1\n# plan {}, {}\n# kind: {}\n", plan->code,
                   plan->what, to_string(plan->kind));
+  if (plan->axis) {
+    const double unit = is_rotary(*plan->axis) ? rad_per_deg : 1.0;
+    const char* const name = is_rotary(*plan->axis) ? "deg" : "mm";
+    text += fmt::format(
+        "# axis: {}\n# add a column t[s], the time of every reading, where it is known\n"
+        "command[{}],actual[{}]\n",
+        letter_of(*plan->axis), name, name);
+    for (const PlannedVisit& visit : plan->visits)
+      text += fmt::format("{:.9g},\n", visit.axes[index_of(*plan->axis)] / unit);
+    return text;
+  }
   std::set<std::pair<int, int>> placed;
   for (const PlannedVisit& visit : plan->visits) {
     if (!placed.insert({visit.setup, visit.ball}).second) continue;
