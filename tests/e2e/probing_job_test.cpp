@@ -11,12 +11,17 @@
 namespace trueaxis::testing {
 namespace {
 
-/// A disc of 40 mm with a bore of 15 mm and a face that is not square to it.
+/// A disc of 40 mm that is off centre, with a bore of 15 mm and a face that is not square to it.
 struct Disc {
+  double rim_x_mm = 0.05, rim_y_mm = -0.03;
   BlockWithBore block{.radius_mm = 15.0};
   TiltedFace face{.slope_x = -0.0005, .slope_y = 0.0};
   double operator()(const BallAt& ball) const {
     const double x = std::abs(ball.x);
+    if (x > 39.5 && ball.z < block.ball_mm) {
+      const InPart p = in_part(ball);
+      return std::hypot(p.x - rim_x_mm, p.y - rim_y_mm) - 40.0 - block.ball_mm;
+    }
     return x > 16.0 && x < 40.0 && ball.z > 0.5 ? face(ball) : block(ball);
   }
 };
@@ -81,6 +86,7 @@ TEST_F(ProbingJob, EveryReferenceIsMeasuredByOneProgram) {
   // 3 mm of clearance to a front of 0.5, a rim of 40.1 and a bore of 14.7 mm.
   EXPECT_GT(run.nearest_mm, 3.0);
   EXPECT_NEAR(fitted(run, "p_1_rim.log", "cylinder", "radius"), 40.0, 1e-6);
+  EXPECT_NEAR(fitted(run, "p_1_rim.log", "cylinder", "x0"), part.rim_x_mm, 1e-6);
   EXPECT_NEAR(fitted(run, "p_2_end_face.log", "plane", "d"), 0.0, 1e-6);
   EXPECT_NEAR(fitted(run, "p_2_end_face.log", "plane", "l"), -part.face.slope_x, 1e-6 / 15.0);
   EXPECT_NEAR(fitted(run, "p_3_bore_____30_.log", "cylinder", "radius"), part.block.radius_mm,

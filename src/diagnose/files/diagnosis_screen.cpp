@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/never.hpp"
+#include "base/number.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "diagnose/files/seen.hpp"
 #include "effect/short_name.hpp"
@@ -87,7 +88,8 @@ std::string unseen_screen(const Diagnosis& d) {
       continue;
     const bool milli = n.detectable_unit == "s" && size < 1.0;
     const Estimate shown = at_edge({size, 0.0, n.detectable_unit, ""});
-    sizes.push_back((n.detectable_unit == "mm" ? um(size)
+    const double digit = digit_worth(size, 2);
+    sizes.push_back((n.detectable_unit == "mm" ? um(digit * std::round(size / digit))
                      : milli                   ? fmt::format("{:.2g} ms", 1e3 * size)
                      : shown.unit == "1"       ? fmt::format("{:.2g}", size)
                                          : fmt::format("{:.2g} {}", shown.value, shown.unit)) +
