@@ -5,8 +5,8 @@
 
 namespace trueaxis {
 
-/// No slip that is not sure, after which no table may be cut. Such a slip is merely in the class of
-/// another cause, is not the only one, has rival causes, or leaves a pattern that is not explained.
+/// No slip that is not sure, after which no table may be cut. Such a slip may be what another cause
+/// is named for, is not the only one, has rival causes, or leaves a pattern that is not explained.
 /// One that a reference's diagnosis names goes before one in a class.
 extern const JobCheck part_slipped;
 

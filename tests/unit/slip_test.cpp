@@ -60,6 +60,22 @@ TEST(Slip, TwoOrOneWithRivalsAreNotSure) {
   EXPECT_NE(objection(found({step})), "");
 }
 
+// A verdict takes a risk of 5 %. What several causes have of it adds up; from one half on,
+// `diagnose` gives no axis either.
+TEST(Slip, InTheClassOfAnotherCauseForbidsFromTheRiskOfAVerdictOn) {
+  Finding bow;
+  bow.term.effect = find_effect("part.bow");
+  const auto rivals = [&](double slip, double creep) {
+    bow.rivals = {{"part.slip", 0.4, 1.1, slip, false}, {"part.creep", 0.4, 1.1, creep, false}};
+    bow.probability = 1.0 - slip - creep;
+    return found({bow});
+  };
+  EXPECT_EQ(objection(rivals(0.02, 0.02)), "");
+  EXPECT_NE(objection(rivals(0.03, 0.03)), "");
+  EXPECT_FALSE(is_likely_slip(*rivals(0.2, 0.2).diagnoses.front()));
+  EXPECT_TRUE(is_likely_slip(*rivals(0.3, 0.3).diagnoses.front()));
+}
+
 TEST(Slip, OneThatLastsIsNotSure) {
   Finding slow = slipped(
       {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});
