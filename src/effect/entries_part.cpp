@@ -170,7 +170,7 @@ std::vector<Effect> part_roundness() {
        .axis_bias =
            AxisBias{0.78, "mm/mm", "tau a third of the pass: 0.78 of what it moves in all"},
        .source = "relaxation of a clamped or warm part",
-       .needs = {.time = true, .stream = StreamKind::lateral},
+       .needs = {.stream = StreamKind::lateral},
        .typical = {{&TermShape::onset_s, {0.0}, ShapeValues::In::instant},
                    {&TermShape::duration_s, {1.0}, ShapeValues::In::duration}},
        .search = {.forms = {{{0, 1}},

@@ -128,7 +128,8 @@ TEST(CreepOfAPart, IsNoBentPart) {
     const double tau = k % 2 == 0 ? 20.0 : 12.0, towards = 0.7 * k;
     const double dx = 0.006 * std::cos(towards), dy = 0.006 * std::sin(towards);
     scenario.effects = {{"part.creep", {{"settling_s", tau}, {"dx_mm", dx}, {"dy_mm", dy}}}};
-    const ProbeStream stream = simulate(scenario);
+    ProbeStream stream = simulate(scenario);
+    if (k % 4 == 3) stream.time_s.clear();  // then it goes with the number of the reading
     const Diagnosis diagnosis = diagnosed(stream);
     if (why_axis_unknown(stream, diagnosis)) {
       ++withheld;
