@@ -47,8 +47,9 @@ std::optional<double> root_near(const F& f, double guess) {
 /// out to the wall. Nothing when the line passes the surface by.
 template <class F>
 std::optional<double> root_outside(const F& f, double centre, double reach) {
+  std::uintmax_t steps = 200;
   const auto [least, f_least] =
-      boost::math::tools::brent_find_minima(f, centre - reach, centre + reach, 40);
+      boost::math::tools::brent_find_minima(f, centre - reach, centre + reach, 40, steps);
   if (!(f_least < 0.0)) return std::nullopt;
   double high = centre + reach, f_high = f(high);
   for (int grown = 0; grown < 60 && !(f_high > 0.0); ++grown) {

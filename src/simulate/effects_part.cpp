@@ -101,9 +101,10 @@ constexpr EffectEntry part_table[] = {
        })(of, chain);
      }},
     {"part.creep",
-     "the part moves in the chuck as 1 - exp(-t/settling) from a time on; 'ends' 1: the part is "
-     "described as it is after 'duration'",
-     {{"settling_s", {}},
+     "the part moves in the chuck as 1 - exp(-t/settling) from a time on, without 'settling' "
+     "evenly; "
+     "'ends' 1: the part is described as it is after 'duration'",
+     {{"settling_s", 0.0},
       {"time_s", 0.0},
       {"dx_mm", 0.0},
       {"dy_mm", 0.0},
@@ -115,7 +116,9 @@ constexpr EffectEntry part_table[] = {
      in<&Chain::step>([](double t, double settling, double from, double dx, double dy,
                          double tilt_x, double tilt_y, double middle, double ends,
                          double duration) {
-       const auto relaxed = [&](double since) { return 1.0 - std::exp(-since / settling); };
+       const auto relaxed = [&](double since) {
+         return settling > 0.0 ? 1.0 - std::exp(-since / settling) : since;
+       };
        const double whole = relaxed(duration);
        const double share = relaxed(std::max(0.0, t - from)) / whole - (ends > 0.5 ? 1.0 : 0.0);
        return PartStep{share * (dx - middle * tilt_x),

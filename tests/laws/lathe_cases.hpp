@@ -141,6 +141,13 @@ inline std::vector<LatheCase> lateral_lathe_cases() {
        },
        {.onset_s = 0.0, .duration_s = 60.0, .settling_s = 14.0},
        {0.0, 0.0, 0.0, 0.02, -0.01, 0.0, 0.0}},
+      {"part.creep",  // evenly
+       1e-3,
+       [](double a) {
+         return Parameters{{"duration_s", 60.0}, {"dx_mm", a}, {"dy_mm", -0.5 * a}, {"ends", 1}};
+       },
+       {.onset_s = 0.0, .duration_s = 60.0},
+       {1.0, -0.5, 0.0, 0.0, 0.0, 0.0, 0.0}},
       {"spindle.radial_synchronous",
        1e-3,
        [](double a) {
