@@ -8,10 +8,12 @@
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_01.hpp>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "base/stop.hpp"
+#include "form/order_evidence.hpp"
+#include "form/surface_order.hpp"
+#include "math/exponential.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::form {
@@ -20,145 +22,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// One order of a surface, a Gaussian process along Z: h_n = τ Σ_d √w_d f_d z_d, z normal. The
-/// course w and the size τ are those of a list, by their evidence. Eq. 320.
-class SurfaceOrder {
- public:
-  /// @param normal AᵀA of the order's own columns
-  SurfaceOrder(int order, int first_degree, int degrees, Eigen::Index column,
-               Eigen::MatrixXd normal);
-
-  int order() const { return order_; }
-  Eigen::Index column() const { return column_; }
-  Eigen::Index size() const { return normal_.rows(); }
-  const Eigen::MatrixXd& normal() const { return normal_; }
-  std::size_t courses() const { return weights_.size(); }
-  bool first_is_constant() const { return first_degree_ == 0; }
-
-  /// ln of the density of Aᵀy with each course and size over that without the order: a row a
-  /// course. @param right Aᵀy of the order's columns without all else
-  void evidence(const Eigen::VectorXd& right, double variance, const std::vector<double>& sizes,
-                Eigen::MatrixXd& out) const;
-
-  /// The coefficients by a course and a size (τ²) and as many normal numbers as `size()`.
-  Eigen::VectorXd draw(const Eigen::VectorXd& right, double variance, std::size_t course,
-                       double size, const Eigen::VectorXd& normal_numbers) const;
-
- private:
-  /// √w AᵀA √w = V diag(λ) Vᵀ, of the columns whose w is not 0.
-  struct System {
-    Eigen::VectorXd values;
-    Eigen::MatrixXd back;  ///< √w V: from coordinates to coefficients; its transpose the other way
-  };
-  const System& system(std::size_t course) const;
-
-  int order_, first_degree_;
-  Eigen::Index column_;
-  Eigen::MatrixXd normal_;
-  std::vector<Eigen::VectorXd> weights_;  ///< of the columns
-  mutable std::vector<std::optional<System>> systems_;
-};
-
-constexpr double reaches[] = {0.3, 1.5, 4.0, 8.0};  // degrees that a course holds; 0.3: a line
-constexpr double shares[] = {0.1, 2.0};             // of what changes, over what stays
-constexpr double least_weight = 1e-4;
-
-/// How an order's size may run along Z: variances of its degrees over that of the first. The first
-/// of these is an order that is the same at every Z. Eq. 319.
-std::vector<Eigen::VectorXd> courses_along_z(int first_degree, int degrees) {
-  std::vector<Eigen::VectorXd> out;
-  if (first_degree == 0) out.push_back(Eigen::VectorXd::Unit(degrees + 1, 0));
-  const int changing = std::max(1, first_degree);
-  for (const double share : shares) {
-    for (const double reach : reaches) {
-      Eigen::VectorXd weight = Eigen::VectorXd::Zero(degrees + 1);
-      if (first_degree == 0) weight[0] = 1.0;
-      for (int d = changing; d <= degrees; ++d) {
-        const double off = (d - changing) / reach;
-        weight[d] = (first_degree == 0 ? share : 1.0) * std::exp(-off * off);
-        if (weight[d] < least_weight) weight[d] = 0.0;
-      }
-      out.push_back(weight);
-      if (reach >= degrees) break;
-    }
-    if (first_degree > 0) break;
-  }
-  return out;
-}
-
-SurfaceOrder::SurfaceOrder(int order, int first_degree, int degrees, Eigen::Index column,
-                           Eigen::MatrixXd normal)
-    : order_(order), first_degree_(first_degree), column_(column), normal_(std::move(normal)) {
-  const int width = SurfaceTerms::width(order);
-  for (const Eigen::VectorXd& one : courses_along_z(first_degree, degrees)) {
-    Eigen::VectorXd weight(size());
-    for (Eigen::Index i = 0; i < size(); ++i) weight[i] = one[first_degree + i / width];
-    weights_.push_back(weight);
-  }
-  systems_.resize(weights_.size());
-}
-
-const SurfaceOrder::System& SurfaceOrder::system(std::size_t course) const {
-  if (systems_[course]) return *systems_[course];
-  const Eigen::VectorXd root = weights_[course].cwiseSqrt();
-  std::vector<Eigen::Index> there;
-  for (Eigen::Index i = 0; i < size(); ++i)
-    if (root[i] > 0.0) there.push_back(i);
-  const auto m = static_cast<Eigen::Index>(there.size());
-  Eigen::MatrixXd scaled(m, m);
-  for (Eigen::Index i = 0; i < m; ++i)
-    for (Eigen::Index j = 0; j < m; ++j) {
-      const Eigen::Index a = there[static_cast<std::size_t>(i)],
-                         b = there[static_cast<std::size_t>(j)];
-      scaled(i, j) = root[a] * normal_(a, b) * root[b];
-    }
-  linear::Spectrum spectrum = linear::spectrum(scaled);
-  System out{spectrum.values.cwiseMax(0.0), Eigen::MatrixXd::Zero(size(), m)};
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const Eigen::Index a = there[static_cast<std::size_t>(i)];
-    out.back.row(a) = root[a] * spectrum.vectors.row(i);
-  }
-  systems_[course] = std::move(out);
-  return *systems_[course];
-}
-
-void SurfaceOrder::evidence(const Eigen::VectorXd& right, double variance,
-                            const std::vector<double>& sizes, Eigen::MatrixXd& out) const {
-  out.resize(static_cast<Eigen::Index>(courses()), static_cast<Eigen::Index>(sizes.size()));
-  const Eigen::ArrayXd gain = Eigen::Map<const Eigen::ArrayXd>(sizes.data(), out.cols()) / variance;
-  Eigen::ArrayXd grown(gain.size()), square(gain.size()), product(gain.size());
-  Eigen::ArrayXd log_product(gain.size());
-  for (std::size_t course = 0; course < courses(); ++course) {
-    const System& in = system(course);
-    const Eigen::VectorXd seen = in.back.transpose() * right;
-    square.setZero(), product.setOnes(), log_product.setZero();
-    for (Eigen::Index j = 0; j < seen.size(); ++j) {
-      grown = 1.0 + gain * in.values[j];
-      square += seen[j] * seen[j] / grown;
-      product *= grown;
-      if (product[product.size() - 1] > 1e200) {  // that of the largest size
-        log_product += product.log();
-        product.setOnes();
-      }
-    }
-    out.row(static_cast<Eigen::Index>(course)) =
-        0.5 * (gain / variance * square - log_product - product.log());
-  }
-}
-
-Eigen::VectorXd SurfaceOrder::draw(const Eigen::VectorXd& right, double variance,
-                                   std::size_t course, double size,
-                                   const Eigen::VectorXd& normal_numbers) const {
-  const System& in = system(course);
-  Eigen::VectorXd at = in.back.transpose() * right;
-  const double tau = std::sqrt(size);
-  for (Eigen::Index j = 0; j < at.size(); ++j) {
-    const double precision = 1.0 + size / variance * in.values[j];
-    at[j] = tau / variance * at[j] / precision + normal_numbers[j] / std::sqrt(precision);
-  }
-  return tau * (in.back * at);
-}
 
 constexpr int warm_up = 240, sweeps_a_draw = 5;
 /// An order may be absent, the same along Z, or changing: Dirichlet numbers of their shares.
@@ -254,8 +117,7 @@ class Chain {
     const MatrixXd by_base = linear::product(base_inverse_, base_rows_);
     normal_ = std::move(sums.normal);
     normal_ -= linear::transposed_product(base_rows_, by_base);
-    left_ = sums.right - by_base.transpose() * base_right_;
-    right_ = left_;
+    right_ = sums.right - by_base.transpose() * base_right_;
     squares_ = sums.squares - base_right_.dot(base_inverse_ * base_right_);
   }
 
@@ -268,6 +130,12 @@ class Chain {
     while (std::log(most / least) / std::log(step) > most_sizes) step *= size_step;
     sizes_.clear();
     for (double size = least; size < most * step; size *= step) sizes_.push_back(size);
+    make_gain();
+  }
+
+  void make_gain() {
+    gain_.assign((sizes_.size() + sizes_at_once - 1) / sizes_at_once * sizes_at_once, 0.0);
+    for (std::size_t k = 0; k < sizes_.size(); ++k) gain_[k] = sizes_[k] / variance_;
   }
 
   double uniform() { return uniform_(engine_); }
@@ -285,8 +153,7 @@ class Chain {
       std::size_t which = orders_.size();
       for (std::size_t at = 0; at < orders_.size(); ++at) {
         if (state_[at] != absent) continue;
-        const SurfaceOrder& order = orders_[at];
-        order.evidence(left_.segment(order.column(), order.size()), variance_, sizes_, evidence_);
+        orders_[at].evidence(without_others(at), variance_, gain_, evidence_);
         if (evidence_.maxCoeff() <= largest) continue;
         largest = evidence_.maxCoeff();
         which = at;
@@ -297,39 +164,50 @@ class Chain {
     }
   }
 
+  /// Aᵀy of an order's columns without all others.
+  VectorXd without_others(std::size_t at) const {
+    const Index begin = orders_[at].column(), size = orders_[at].size();
+    VectorXd out = right_.segment(begin, size);
+    for (std::size_t other = 0; other < orders_.size(); ++other) {
+      if (other == at || state_[other] == absent) continue;
+      const Index from = orders_[other].column(), count = orders_[other].size();
+      const auto between = normal_.block(from, begin, count, size);
+      out.noalias() -= between.transpose().lazyProduct(value_.segment(from, count));
+    }
+    return out;
+  }
+
   /// State, course, size and coefficients of an order by what all others leave. Eq. 320.
   void renew(std::size_t at) {
     const SurfaceOrder& order = orders_[at];
-    const Index begin = order.column(), size = order.size();
-    VectorXd right = left_.segment(begin, size);
-    const VectorXd old = value_.segment(begin, size);
-    const bool was = state_[at] != absent;
-    if (was) right += order.normal() * old;
-    order.evidence(right, variance_, sizes_, evidence_);
+    const VectorXd right = without_others(at);
+    order.evidence(right, variance_, gain_, evidence_);
+    const auto sizes = static_cast<Index>(sizes_.size());
     const double largest = std::max(0.0, evidence_.maxCoeff());
-    evidence_ = (evidence_.array() - largest).exp() / static_cast<double>(sizes_.size());
+    evidence_.array() -= largest;
+    const std::span<double> all(evidence_.data(), static_cast<std::size_t>(evidence_.size()));
+    exponential(all, all);
+    evidence_ /= static_cast<double>(sizes);
+    evidence_.bottomRows(evidence_.rows() - sizes).setZero();
     const Index steady = order.first_is_constant() ? 1 : 0;
-    const Index others = evidence_.rows() - steady;
-    if (steady) evidence_.row(0) *= share_of_state_[constant];
-    evidence_.bottomRows(others) *= share_of_state_[changing] / static_cast<double>(others);
+    const Index others = evidence_.cols() - steady;
+    if (steady) evidence_.col(0) *= share_of_state_[constant];
+    evidence_.rightCols(others) *= share_of_state_[changing] / static_cast<double>(others);
     const double none = share_of_state_[absent] * std::exp(-largest);
     double left = uniform() * (none + evidence_.sum()) - none;
-    VectorXd now = VectorXd::Zero(size);
+    auto value = value_.segment(order.column(), order.size());
+    value.setZero();
     state_[at] = absent;
-    if (left >= 0.0) {
-      Index course = 0, k = 0;
-      for (Index one = 0; one < evidence_.size() && left >= 0.0; ++one) {
-        course = one % evidence_.rows();
-        k = one / evidence_.rows();
-        left -= evidence_(course, k);
-      }
-      state_[at] = course < steady ? constant : changing;
-      now = order.draw(right, variance_, static_cast<std::size_t>(course),
-                       sizes_[static_cast<std::size_t>(k)], normal_numbers(size));
+    if (left < 0.0) return;
+    Index course = 0, k = 0;
+    for (Index one = 0; one < sizes * order.courses() && left >= 0.0; ++one) {
+      course = one % order.courses();
+      k = one / order.courses();
+      left -= evidence_(k, course);
     }
-    if (!was && state_[at] == absent) return;
-    left_ -= normal_.middleCols(begin, size) * (now - old);
-    value_.segment(begin, size) = now;
+    state_[at] = course < steady ? constant : changing;
+    value = order.draw(right, variance_, course, sizes_[static_cast<std::size_t>(k)],
+                       normal_numbers(order.size()));
   }
 
   void renew_shares() {
@@ -345,11 +223,19 @@ class Chain {
   }
 
   void renew_noise() {
-    const double explained = value_.dot(right_ + left_);
+    double explained = 0.0;
+    for (std::size_t at = 0; at < orders_.size(); ++at) {
+      if (state_[at] == absent) continue;
+      const Index begin = orders_[at].column(), size = orders_[at].size();
+      const auto value = value_.segment(begin, size);
+      explained += value.dot(right_.segment(begin, size) + without_others(at) -
+                             normal_.block(begin, begin, size, size) * value);
+    }
     const double rest = std::max(squares_ - explained, rounding_ * count_);
     const double half = 0.5 * (count_ - static_cast<double>(base_columns_.size()));
     const double gamma = boost::random::gamma_distribution<double>(half, 1.0)(engine_);
     variance_ = std::max(0.5 * rest / gamma, least_variance_);
+    make_gain();
   }
 
   boost::random::mt19937_64 engine_;
@@ -358,11 +244,11 @@ class Chain {
   double least_variance_, count_, squares_ = 0.0, rounding_ = 0.0, variance_ = 0.0;
   std::vector<Index> base_columns_;
   MatrixXd base_rows_, base_inverse_, base_root_, normal_, evidence_;
-  VectorXd base_right_, left_, right_, value_;
+  VectorXd base_right_, right_, value_;
   std::vector<SurfaceOrder> orders_;
   std::vector<State> state_;
   std::vector<int> found_;
-  std::vector<double> sizes_;
+  std::vector<double> sizes_, gain_;  ///< τ², and τ²/σ² padded
   std::array<double, 3> share_of_state_{0.9, 0.05, 0.05};
 };
 
