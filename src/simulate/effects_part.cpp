@@ -3,10 +3,13 @@
 
 #include "base/angle.hpp"
 #include "simulate/effects.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {
+
+constexpr double without_end_s = 1e9;
 
 constexpr EffectEntry part_table[] = {
     // A ring pressed at j points bends as 1/(n² − 1)² at n = j, 2j, …
@@ -102,8 +105,7 @@ constexpr EffectEntry part_table[] = {
      }},
     {"part.creep",
      "the part moves in the chuck as 1 - exp(-t/settling) from a time on, without 'settling' "
-     "evenly; "
-     "'ends' 1: the part is described as it is after 'duration'",
+     "evenly over 'duration'; 'ends' 1: the part is described as it is after 'duration'",
      {{"settling_s", 0.0},
       {"time_s", 0.0},
       {"dx_mm", 0.0},
@@ -112,10 +114,12 @@ constexpr EffectEntry part_table[] = {
       {"tilt_y_rad", 0.0},
       {"middle_mm", 0.0},
       {"ends", 0.0},
-      {"duration_s", 1e9}},
+      {"duration_s", without_end_s}},
      in<&Chain::step>([](double t, double settling, double from, double dx, double dy,
                          double tilt_x, double tilt_y, double middle, double ends,
                          double duration) {
+       if (settling == 0.0 && duration == without_end_s)
+         throw InputError("scenario", "part.creep: give `settling`, or `duration` if it is even");
        const auto relaxed = [&](double since) {
          return settling > 0.0 ? 1.0 - std::exp(-since / settling) : since;
        };

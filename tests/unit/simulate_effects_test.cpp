@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -319,6 +320,11 @@ TEST(SimulateEffects, ZeroEffectsChangeNothingAndOthersSomething) {
     const bool limits = kind.id == "probe.saturation";
     for (const LatheParameter& parameter : kind.parameters) {
       if (!parameter.fallback) effect.parameters[std::string(parameter.name)] = 1.0;
+    }
+    if (kind.id == "part.creep") {  // evenly over no time would be nothing
+      scenario.effects = {effect};
+      EXPECT_THROW(simulate(scenario), InputError);
+      effect.parameters["settling_s"] = 1.0;
     }
     for (const double size : {0.0, 0.01}) {
       for (const LatheParameter& parameter : kind.parameters) {
