@@ -10,9 +10,9 @@
 namespace trueaxis {
 namespace {
 
-constexpr std::size_t solved_whole = 1500;  ///< so many points are all solved for
-constexpr std::size_t spread_out = 256;     ///< of more, so many from everywhere: they enclose it
-constexpr std::size_t stretches = 512;      ///< of many points each offers its furthest
+constexpr std::size_t solved_whole = 400;  ///< so many points are all solved for
+constexpr std::size_t spread_out = 256;    ///< of more, so many from everywhere: they enclose it
+constexpr std::size_t stretches = 512;     ///< of many points each offers its furthest
 
 }  // namespace
 

@@ -43,8 +43,8 @@ class Constraints {
         m_(program.a.rows()),
         n_(program.a.cols()) {}
 
-  Eigen::VectorXd column(Eigen::Index j) const {
-    Eigen::VectorXd out = Eigen::VectorXd::Zero(n_ + 1);
+  Unknowns column(Eigen::Index j) const {
+    Unknowns out = Unknowns::Zero(n_ + 1);
     if (j < m_) {
       out.head(n_) = -program_.a.row(j).transpose();
       out[n_] = 1.0;
@@ -67,7 +67,7 @@ class Constraints {
   }
 
   /// What is broken most; after `quick` exchanges the first that is (Bland's rule: no cycles).
-  std::optional<Eigen::Index> entering(const Eigen::VectorXd& x, int exchange) {
+  std::optional<Eigen::Index> entering(const Unknowns& x, int exchange) {
     constexpr int quick = 400;
     gain_.noalias() = program_.g + program_.a * x.head(n_);
     std::optional<Eigen::Index> best;
@@ -100,7 +100,7 @@ ChebyshevSolution solve(const ChebyshevProgram& program, double reach, double to
   const Eigen::Index n = program.a.cols();
   std::vector<Eigen::Index> basis = constraints.first_basis();
   const Vertex found =
-      dual_simplex(Eigen::VectorXd::Unit(n + 1, n), basis, constraints, most_exchanges);
+      dual_simplex(Unknowns(Unknowns::Unit(n + 1, n)), basis, constraints, most_exchanges);
   ChebyshevSolution out{found.x.head(n), found.x[n], {}, {}, found.solved && found.x.allFinite()};
   if (!found.solved) return out;
   for (std::size_t i = 0; i < basis.size(); ++i) {

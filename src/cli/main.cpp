@@ -4,10 +4,12 @@
 #include "cli/dropped.hpp"
 #include "cli/guarded.hpp"
 #include "cli/program.hpp"
+#include "platform/memory.hpp"
 #include "platform/terminal.hpp"
 
 int main(int argc, char** argv) {
   using namespace trueaxis;
+  platform::keep_freed_memory();
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
   const std::vector<std::string> words = platform::begin_program(argc, argv);

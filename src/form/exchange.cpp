@@ -52,10 +52,10 @@ class Constraints {
   Constraints(const Exchange::Rows& rows, std::span<const double> y, bool zone)
       : rows_(rows), y_(y.data(), rows.rows()), zone_(zone), largest_(y_.cwiseAbs().maxCoeff()) {}
 
-  Eigen::VectorXd column(const Exchange::Active& one) const {
+  Unknowns column(const Exchange::Active& one) const {
     const Eigen::Index p = rows_.cols(), n = zone_ ? p + 1 : p;
-    if (one.reading < 0) return Eigen::VectorXd::Unit(n, -1 - one.reading);
-    Eigen::VectorXd g(n);
+    if (one.reading < 0) return Unknowns::Unit(n, -1 - one.reading);
+    Unknowns g(n);
     g.head(p) = one.side * rows_.row(one.reading).transpose();
     if (zone_) g[p] = 1.0;
     return g;
@@ -65,7 +65,7 @@ class Constraints {
   }
   /// One that is broken: the worst of those that were when all were looked at last, as long as that
   /// is worth a good part of the worst then; else of all.
-  std::optional<Exchange::Active> entering(const Eigen::VectorXd& x, int) {
+  std::optional<Exchange::Active> entering(const Unknowns& x, int) {
     const double t = zone_ ? x[rows_.cols()] : 0.0;
     if (const auto known = worst_of(broken_, x, t, good_part * worst_then_)) return known;
     look_at_all(x, t);
@@ -76,8 +76,7 @@ class Constraints {
   double least() const { return 16.0 * epsilon * largest_; }
 
   std::optional<Exchange::Active> worst_of(std::span<const Exchange::Active> list,
-                                           const Eigen::VectorXd& x, double t,
-                                           double more_than) const {
+                                           const Unknowns& x, double t, double more_than) const {
     std::optional<Exchange::Active> out;
     double worst = std::max(more_than, least());
     for (const Exchange::Active& one : list) {
@@ -90,7 +89,7 @@ class Constraints {
     return out;
   }
   /// The worst of every stretch of readings.
-  void look_at_all(const Eigen::VectorXd& x, double t) {
+  void look_at_all(const Unknowns& x, double t) {
     off_ = y_;
     off_.noalias() -= rows_ * x.head(rows_.cols());
     broken_.clear();

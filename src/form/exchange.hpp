@@ -41,6 +41,8 @@ class Exchange {
   /// @param rows φ_k(i), a row a reading, the first column 1
   Exchange(Rows rows, Criterion criterion);
 
+  /// Least squares, which need no start.
+  Nearest least_squares(std::span<const double> y) const;
   /// The values may change from call to call: the next one starts from what touched last.
   Nearest operator()(std::span<const double> y);
 
@@ -49,7 +51,6 @@ class Exchange {
 
  private:
   void begin();
-  Nearest least_squares(std::span<const double> y) const;
 
   /// Shared by copies, which only start elsewhere.
   std::shared_ptr<const Rows> rows_, solver_;  ///< Φ, and Φ (ΦᵀΦ)⁻¹ of least squares

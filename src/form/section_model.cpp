@@ -213,8 +213,7 @@ std::vector<NamedValue> SectionModel::values_of(const std::vector<std::vector<do
 }
 
 AxisOffset SectionModel::centre(std::span<const double> filtered_mm) const {
-  Exchange least = near_.front();
-  const Eigen::VectorXd q = least(filtered_mm).q;
+  const Eigen::VectorXd q = near_.front().least_squares(filtered_mm).q;
   return {x_mm() + q[1], y_mm() + q[2]};
 }
 

@@ -45,7 +45,7 @@ std::vector<VectorXd> courses_along_z(int first_degree, int degrees) {
 
 SurfaceOrder::SurfaceOrder(int order, int first_degree, int degrees, Index column,
                            const MatrixXd& normal)
-    : order_(order), first_degree_(first_degree), column_(column), back_(normal.rows(), 0) {
+    : order_(order), first_degree_(first_degree), column_(column), seen_(0, normal.rows()) {
   const int width = SurfaceTerms::width(order);
   for (const VectorXd& one : courses_along_z(first_degree, degrees)) {
     VectorXd weight(size());
@@ -62,9 +62,9 @@ void SurfaceOrder::add_course(const VectorXd& weight, const MatrixXd& normal) {
   const VectorXd root = weight(there).cwiseSqrt();
   const linear::Spectrum spectrum =
       linear::spectrum(linear::scaled_both(normal(there, there), root));
-  back_.conservativeResize(Eigen::NoChange, begin_.back() + m);
-  back_.rightCols(m).setZero();
-  back_(there, Eigen::lastN(m)) = linear::scaled_rows(root, spectrum.vectors);
+  seen_.conservativeResize(begin_.back() + m, Eigen::NoChange);
+  seen_.bottomRows(m).setZero();
+  seen_(Eigen::lastN(m), there) = linear::scaled_columns(spectrum.vectors.transpose(), root);
   for (const double value : spectrum.values) values_.push_back(std::max(value, 0.0));
   begin_.push_back(begin_.back() + m);
 }
@@ -72,7 +72,7 @@ void SurfaceOrder::add_course(const VectorXd& weight, const MatrixXd& normal) {
 void SurfaceOrder::evidence(const VectorXd& right, double variance, std::span<const double> gain,
                             MatrixXd& out) const {
   out.resize(static_cast<Index>(gain.size()), courses());
-  const VectorXd squares = (back_.transpose() * right).array().square();
+  const VectorXd squares = (seen_ * right).array().square();
   for (Index course = 0; course < courses(); ++course) {
     const auto from = static_cast<std::size_t>(begin(course)),
                to = static_cast<std::size_t>(begin(course + 1));
@@ -84,14 +84,14 @@ void SurfaceOrder::evidence(const VectorXd& right, double variance, std::span<co
 VectorXd SurfaceOrder::draw(const VectorXd& right, double variance, Index course, double size,
                             const VectorXd& normal_numbers) const {
   const Index from = begin(course), count = begin(course + 1) - from;
-  const auto back = back_.middleCols(from, count);
-  VectorXd at = back.transpose() * right;
+  const auto seen = seen_.middleRows(from, count);
+  VectorXd at = seen * right;
   const double tau = std::sqrt(size);
   for (Index j = 0; j < count; ++j) {
     const double precision = 1.0 + size / variance * values_[static_cast<std::size_t>(from + j)];
     at[j] = tau / variance * at[j] / precision + normal_numbers[j] / std::sqrt(precision);
   }
-  return tau * (back * at);
+  return tau * (seen.transpose() * at);
 }
 
 }  // namespace trueaxis::form

@@ -19,7 +19,7 @@ class SurfaceOrder {
 
   int order() const { return order_; }
   Eigen::Index column() const { return column_; }
-  Eigen::Index size() const { return back_.rows(); }
+  Eigen::Index size() const { return seen_.cols(); }
   Eigen::Index courses() const { return static_cast<Eigen::Index>(begin_.size()) - 1; }
   bool first_is_constant() const { return first_degree_ == 0; }
 
@@ -42,7 +42,7 @@ class SurfaceOrder {
   /// √w AᵀA √w = V diag(λ) Vᵀ of each course, of the columns whose w is not 0, one after the other.
   std::vector<Eigen::Index> begin_{0};
   std::vector<double> values_;
-  Eigen::MatrixXd back_;  ///< √w V: from coordinates to coefficients; its transpose the other way
+  Eigen::MatrixXd seen_;  ///< Vᵀ√w: from Aᵀy to coordinates; its transpose to coefficients
 };
 
 }  // namespace trueaxis::form

@@ -114,12 +114,12 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections,
     towards_.emplace_back();
     for (Eigen::Index i = 0; i < rows.rows(); ++i)
       towards_.back().push_back({rows(i, 1), rows(i, 2)});
-    centre_fits_.emplace_back(rows, Criterion::gaussian);
+    circle_fits_.emplace_back(rows, Criterion::gaussian);
   }
   middle_mm_ = 0.5 * (low + high);
   half_mm_ = 0.5 * (high - low);
   const auto profiles = profiles_of(sections);
-  start_ = least_squares_line(centres(profiles));
+  start_ = least_squares_line(centres(circles(profiles)));
   if (sections.size() > 2) generatrices_.emplace(sections, start_);
   for (const bool of_cone : {false, true}) {
     const Rows now = about(start_, profiles, of_cone);
@@ -137,14 +137,19 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections,
   }
 }
 
-std::vector<CentrePoint> WholeModel::centres(
+std::vector<Eigen::VectorXd> WholeModel::circles(
     const std::vector<std::vector<double>>& filtered_mm) const {
+  std::vector<Eigen::VectorXd> out;
+  for (std::size_t s = 0; s < sections_.size(); ++s)
+    out.push_back(circle_fits_[s].least_squares(filtered_mm[s]).q);
+  return out;
+}
+
+std::vector<CentrePoint> WholeModel::centres(const std::vector<Eigen::VectorXd>& circles) const {
   std::vector<CentrePoint> out;
-  for (std::size_t s = 0; s < sections_.size(); ++s) {
-    Exchange fit = centre_fits_[s];
-    const Eigen::VectorXd q = fit(filtered_mm[s]).q;
-    out.push_back({sections_[s].x_mm() + q[1], sections_[s].y_mm() + q[2], *sections_[s].z_mm()});
-  }
+  for (std::size_t s = 0; s < sections_.size(); ++s)
+    out.push_back({sections_[s].x_mm() + circles[s][1], sections_[s].y_mm() + circles[s][2],
+                   *sections_[s].z_mm()});
   return out;
 }
 
@@ -310,14 +315,13 @@ std::vector<NamedValue> WholeModel::values_of(
     add("CYLv", about, std::max(0.0, -low));
     add("CYLq", about, root_mean_square(fit.off_mm));
   }
+  const std::vector<Eigen::VectorXd> of_sections = circles(filtered_mm);
   std::vector<double> radii;
-  for (std::size_t s = 0; s < sections_.size(); ++s) {
-    Exchange fit = centre_fits_[s];
-    radii.push_back(sections_[s].radius_mm() + fit(filtered_mm[s]).q[0]);
-  }
+  for (std::size_t s = 0; s < sections_.size(); ++s)
+    radii.push_back(sections_[s].radius_mm() + of_sections[s][0]);
   add("CYLrr", "LSCI", range_of(radii).length());
   if (sections_.size() > 2) {
-    add("STRsa", "", smallest_cylinder_mm(centres(filtered_mm)));
+    add("STRsa", "", smallest_cylinder_mm(centres(of_sections)));
     add("STRsg", "MZLI", generatrices_->straightness_mm(filtered_mm));
     const Fitted& cone = fits.at({Criterion::gaussian, true});
     const double slope = cone.q[5] / half_mm_;
@@ -339,7 +343,7 @@ std::vector<NamedValue> WholeModel::against(
   each_off(datum, filtered_mm,
            [&](double distance, double, double, double) { distances.push_back(distance); });
   double circular = 0.0;
-  const auto middles = centres(filtered_mm);
+  const auto middles = centres(circles(filtered_mm));
   std::size_t row = 0;
   for (std::size_t s = 0; s < sections_.size(); ++s) {
     const std::span<const double> section(distances.data() + row, filtered_mm[s].size());

@@ -82,7 +82,9 @@ class WholeModel {
   std::vector<double> y_near(const std::vector<std::vector<double>>& filtered_mm) const;
   std::vector<NamedValue> values_of(const Fits& fits,
                                     const std::vector<std::vector<double>>& filtered_mm) const;
-  std::vector<CentrePoint> centres(const std::vector<std::vector<double>>& filtered_mm) const;
+  /// The least-squares circle of every section: radius and centre less those of the section.
+  std::vector<Eigen::VectorXd> circles(const std::vector<std::vector<double>>& filtered_mm) const;
+  std::vector<CentrePoint> centres(const std::vector<Eigen::VectorXd>& circles) const;
   struct Rows {
     Exchange::Rows rows;
     std::vector<double> y;
@@ -102,7 +104,7 @@ class WholeModel {
   double middle_mm_ = 0.0, half_mm_ = 1.0, mean_radius_mm_ = 0.0;
   AxisLine start_;
   std::vector<double> base_;  ///< y of `about(start_)` of the measured profiles
-  std::vector<Exchange> centre_fits_;
+  std::vector<Exchange> circle_fits_;
   std::optional<Generatrices> generatrices_;             ///< about `start_`
   Fits measured_;                                        ///< in space
   std::map<std::pair<Criterion, bool>, Exchange> near_;  ///< about `start_`, at the optimum

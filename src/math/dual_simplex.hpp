@@ -2,18 +2,23 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "math/linear_algebra.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 
+/// As many unknowns as an element has motions, and one: they need no memory of their own.
+constexpr int most_unknowns = 8;
+using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_unknowns, 1>;
+
 /// Where the exchange of `dual_simplex` ended.
 struct Vertex {
-  Eigen::VectorXd x;
-  Eigen::VectorXd multipliers;  ///< of the constraints of the basis, in its order
+  Unknowns x;
+  Unknowns multipliers;  ///< of the constraints of the basis, in its order
   bool solved = false;
 };
 
@@ -25,12 +30,14 @@ struct Vertex {
 /// `Constraints` has column(j), cost(j) and entering(x, exchange): a constraint that x breaks, or
 /// none for the optimum.
 template <typename Basis, typename Constraints>
-Vertex dual_simplex(const Eigen::VectorXd& objective, std::vector<Basis>& basis,
-                    Constraints& constraints, int most_exchanges) {
+Vertex dual_simplex(const Unknowns& objective, std::vector<Basis>& basis, Constraints& constraints,
+                    int most_exchanges) {
   constexpr double least_pivot = 1e-11;
   const Eigen::Index n = objective.size();
-  Eigen::MatrixXd columns(n, n);
-  Eigen::VectorXd cost(n);
+  expects(n <= most_unknowns, "few unknowns");
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_unknowns, most_unknowns> columns(n,
+                                                                                                 n);
+  Unknowns cost(n);
   Vertex at;
   for (int exchange = 0; exchange < most_exchanges; ++exchange) {
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -38,14 +45,14 @@ Vertex dual_simplex(const Eigen::VectorXd& objective, std::vector<Basis>& basis,
       columns.col(j) = constraints.column(one);
       cost[j] = constraints.cost(one);
     }
-    const linear::Triangles factors(columns);
-    at.x = factors.solve_transposed(cost);
+    const Eigen::PartialPivLU<decltype(columns)> factors(columns);
+    at.x = factors.transpose().solve(cost);
     at.multipliers = factors.solve(objective);
     const auto incoming = constraints.entering(at.x, exchange);
     at.solved = !incoming;
     if (!incoming) break;
     // The first whose multiplier it brings to zero goes out.
-    const Eigen::VectorXd pivot = factors.solve(constraints.column(*incoming));
+    const Unknowns pivot = factors.solve(constraints.column(*incoming));
     Eigen::Index leaves = -1;
     for (Eigen::Index j = 0; j < n; ++j) {
       if (pivot[j] <= least_pivot) continue;

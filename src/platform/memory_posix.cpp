@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include <cstdlib>
@@ -16,5 +17,12 @@ void* allocate_aligned(std::size_t alignment, std::size_t bytes) {
 }
 
 void free_aligned(void* memory) { std::free(memory); }
+
+void keep_freed_memory() {
+  // Where glibc's own thresholds, which rise with what is freed, end.
+  constexpr int most = 32 << 20;
+  mallopt(M_MMAP_THRESHOLD, most);
+  mallopt(M_TRIM_THRESHOLD, 2 * most);
+}
 
 }  // namespace trueaxis::platform

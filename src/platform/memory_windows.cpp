@@ -11,4 +11,6 @@ void* allocate_aligned(std::size_t alignment, std::size_t bytes) {
 
 void free_aligned(void* memory) { ::_aligned_free(memory); }
 
+void keep_freed_memory() {}  // its heap does
+
 }  // namespace trueaxis::platform
