@@ -62,18 +62,17 @@ class FormsWithLobes {
 
   Fit beside(const Hypothesis& form) const {
     const Shares f = shares_of(forms_.rows_of({form}, false).col(0));
-    std::vector<double> sizes;
-    const auto begin_with = [&](double right, double norm2) {
-      if (norm2 > least2 * f.whole2) sizes.push_back(right / norm2);
-    };
-    begin_with(y_.rest.dot(f.rest), f.rest.squaredNorm());
-    for (std::size_t k = 0; k < own_.size(); ++k)
-      begin_with(y_.along[k].dot(f.along[k]), f.along[k].squaredNorm());
+    const Line rest = line_of(y_.rest, f.rest);
+    std::vector<Line> along;
+    for (std::size_t k = 0; k < own_.size(); ++k) along.push_back(line_of(y_.along[k], f.along[k]));
     Fit out;
-    for (const double size : sizes) {
-      Fit fit = settled(f, size);
+    const auto begin_with = [&](const Line& one) {
+      if (!(one.norm2 > least2 * f.whole2)) return;
+      Fit fit = settled(rest, along, least2 * f.whole2, one.size);
       if (fit.criterion < out.criterion) out = std::move(fit);
-    }
+    };
+    begin_with(rest);
+    for (const Line& one : along) begin_with(one);
     return out;
   }
 
@@ -95,22 +94,35 @@ class FormsWithLobes {
     return out;
   }
 
+  /// The square of what a form of a size leaves of readings, by the size that leaves least.
+  struct Line {
+    double size = 0.0, norm2 = 0.0, least = 0.0;
+    double left2(double of_size) const {
+      const double off = of_size - size;
+      return least + norm2 * off * off;
+    }
+  };
+  static Line line_of(const Eigen::VectorXd& y, const Eigen::VectorXd& f) {
+    Line out{0.0, f.squaredNorm(), 0.0};
+    if (out.norm2 > 0.0) out.size = y.dot(f) / out.norm2;
+    out.least = (y - out.size * f).squaredNorm();
+    return out;
+  }
+
   /// The orders that are taken with that size of the form, the size which the others show, and so
   /// on.
-  Fit settled(const Shares& f, double size) const {
+  Fit settled(const Line& rest, const std::vector<Line>& along, double least_norm2,
+              double size) const {
     Fit fit;
     fit.size = size;
-    const auto left2 = [&](std::size_t k) {
-      return (y_.along[k] - fit.size * f.along[k]).squaredNorm();
-    };
+    const auto left2 = [&](std::size_t k) { return along[k].left2(fit.size); };
     const auto price = [&](std::size_t k) {
       return log_readings_ * static_cast<double>(own_[k].cols());
     };
-    double variance =
-        (y_.rest - size * f.rest).squaredNorm() / rest_freedom_ + left_alone2_ / freedom_;
+    double variance = rest.left2(size) / rest_freedom_ + left_alone2_ / freedom_;
     for (int round = 0; round < settles; ++round) {
       fit.taken.assign(own_.size() / levels, 0);
-      double right = y_.rest.dot(f.rest), norm2 = f.rest.squaredNorm(), prices = 0.0;
+      double right = rest.size * rest.norm2, norm2 = rest.norm2, prices = 0.0;
       double freedom = rest_freedom_;
       for (std::size_t n = 0; n < fit.taken.size(); ++n) {
         double gain = -choice_, best = 0.0;
@@ -125,12 +137,12 @@ class FormsWithLobes {
             prices += price(k);
             continue;
           }
-          right += y_.along[k].dot(f.along[k]), norm2 += f.along[k].squaredNorm();
+          right += along[k].size * along[k].norm2, norm2 += along[k].norm2;
           freedom += static_cast<double>(own_[k].cols());
         }
       }
-      if (norm2 > least2 * f.whole2) fit.size = right / norm2;
-      double rss = (y_.rest - fit.size * f.rest).squaredNorm();
+      if (norm2 > least_norm2) fit.size = right / norm2;
+      double rss = rest.left2(fit.size);
       for (std::size_t n = 0; n < fit.taken.size(); ++n)
         for (std::size_t level = fit.taken[n]; level < levels; ++level)
           rss += left2(levels * n + level);
