@@ -90,6 +90,24 @@ TEST(Recovery, EccentricityUpToTheRadius) {
   }
 }
 
+// A plane shows a direction and no place: its axis is the normal through the spindle axis at Z 0.
+TEST(Recovery, ThePlanesAxisIsItsNormalThroughTheSpindleAxis) {
+  constexpr std::uint64_t seed = 20264;
+  Draw draw(seed);
+  for (int i = 0; i < 50; ++i) {
+    const LawCase c = draw_case("plane", draw);
+    SCOPED_TRACE(::testing::Message() << "seed 20264 " << to_literal(c));
+    const FitResult result = fit(probe(c), options_of(c));
+    const std::vector<double> tolerance = rounding_of_parameters(c, result);
+    for (const double z_mm : {-100.0, 0.0, 100.0}) {
+      const auto [x_mm, y_mm] = result.axis.axis.at(z_mm);
+      // A slope l/n, n² = 1 − l² − m², changes by at most 1/n³ of l, which is 2.8 at 45°.
+      EXPECT_NEAR(x_mm, c.slope_x * z_mm, 3.0 * tolerance[0] * std::abs(z_mm));
+      EXPECT_NEAR(y_mm, c.slope_y * z_mm, 3.0 * tolerance[1] * std::abs(z_mm));
+    }
+  }
+}
+
 TEST(Recovery, TwoAndAThirdReadingsARevolutionAndThreeHundredAndSixty) {
   for (const double per_revolution : {2.3, 2.0 + 1e-3, 3.0 + 1e-2, 360.0}) {
     LawCase c;
