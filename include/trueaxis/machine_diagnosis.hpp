@@ -49,9 +49,13 @@ struct ZeroDrift {
 struct ZeroStep {
   AxisName axis = AxisName::X;
 };
+/// The scale of a read-out itself: what it says over the range in addition to what the axis does.
+struct ZeroScale {
+  AxisName axis = AxisName::X;
+};
 /// How an effect is computed; monostate: it is not.
 using MachineTerm = std::variant<std::monostate, ErrorOfPosition, ErrorOfSense, TipDrift, BallStep,
-                                 ZeroDrift, ZeroStep>;
+                                 ZeroDrift, ZeroStep, ZeroScale>;
 
 /// Whether it is an error of the machine as a function of its axes, which programs are corrected
 /// by.

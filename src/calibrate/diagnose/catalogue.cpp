@@ -83,11 +83,9 @@ bool comes_from_both_sides(const Problem& problem, AxisName axis) {
     return std::ranges::any_of(
         problem.rows, [&](const Row& row) { return row.read_out == axis && row.sense != 0.0; });
   bool up = false, down = false;
-  double last = problem.rows.front().axes[index_of(axis)];
-  for (const Row& row : problem.rows) {
-    const double move = row.axes[index_of(axis)] - last;
-    up = up || move > least_move, down = down || move < -least_move;
-    last = row.axes[index_of(axis)];
+  const std::vector<double> at = positions_of(problem, axis);
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    up = up || at[i] - at[i - 1] > least_move, down = down || at[i] - at[i - 1] < -least_move;
   }
   return up && down;
 }
@@ -121,6 +119,7 @@ void add_axis(const Problem& problem, AxisName axis, std::vector<MachineEffect>&
   }
   for (std::size_t direction = 0; direction < 6; ++direction) {
     const ErrorName error{true, direction, index_of(axis)};
+    if (direction == index_of(axis) && problem.has_read_out(axis)) continue;  // always fitted
     if (is_rotary(axis) && range.length() >= whole_turn)
       add_harmonics(axis, error, cyclic_orders, out);
     else
@@ -166,7 +165,7 @@ MachineEffect fine_of(const Problem& problem, AxisName axis, const std::set<int>
   return one;
 }
 
-void add_zero(const Problem& problem, AxisName axis, bool timed, std::vector<MachineEffect>& out) {
+void add_zero(const Problem& problem, AxisName axis, std::vector<MachineEffect>& out) {
   const std::string letter(1, letter_of(axis)), what = "the zero of the read-out of " + letter;
   const TimeSpan times = times_of(problem, axis);
   MachineEffect drift;
@@ -179,7 +178,7 @@ void add_zero(const Problem& problem, AxisName axis, bool timed, std::vector<Mac
   drift.unit = is_rotary(axis) ? "rad" : "mm";
   drift.low = is_rotary(axis) ? 2e-6 : 0.5e-3, drift.high = is_rotary(axis) ? 2e-4 : 0.05;
   drift.consequence = "axis or instrument warmed up: read out again when they are warm";
-  if (!timed || !(times.end_s > times.begin_s))
+  if (!(times.end_s > times.begin_s))
     drift.why_not = "the rows have no times: measure with a column t";
   MachineEffect step = drift;
   step.id = "read_out." + letter + ".step";
@@ -189,13 +188,23 @@ void add_zero(const Problem& problem, AxisName axis, bool timed, std::vector<Mac
   step.formula = "size from the row on";
   step.shape = {}, step.why_not = "";
   step.consequence = "the instrument or its reflector moved while the axis was read out";
+  if (!problem.read_outs()) {
+    MachineEffect scale = step;
+    scale.id = "read_out." + letter + ".scale";
+    scale.title = "scale of the read-out of " + letter + " against the ball";
+    scale.term = ZeroScale{axis};
+    scale.parameters = {"over_range"};
+    scale.formula = "over_range ((q - low)/(high - low) - 1/2)";
+    scale.consequence =
+        "read-out and ball do not agree: check the temperature of the material, alignment and unit";
+    out.push_back(std::move(scale));
+  }
   out.push_back(std::move(drift));
   out.push_back(std::move(step));
 }
 
 /// What read-outs alone show: the position error of their axis, its reversal, and their own zero.
-void add_read_out(const Problem& problem, AxisName axis, bool timed,
-                  std::vector<MachineEffect>& out) {
+void add_read_out(const Problem& problem, AxisName axis, std::vector<MachineEffect>& out) {
   const std::string letter(1, letter_of(axis));
   const AxisRange range = axis_range(problem, axis);
   MachineEffect others;
@@ -222,12 +231,12 @@ void add_read_out(const Problem& problem, AxisName axis, bool timed,
   }
   out.push_back(fine_of(problem, axis, orders, error));
   out.push_back(reversal_of(problem, axis));
-  add_zero(problem, axis, timed, out);
+  add_zero(problem, axis, out);
   out.push_back(std::move(others));
 }
 
 void add_drifts(const Problem& problem, bool timed, std::vector<MachineEffect>& out) {
-  const auto [first, last] = std::ranges::minmax(problem.rows, {}, &Row::time_s);
+  const TimeSpan times = times_of_tip(problem);
   for (std::size_t i = 0; i < 3; ++i) {
     MachineEffect drift;
     drift.id = std::string("drift.") + "XYZ"[i];
@@ -235,12 +244,12 @@ void add_drifts(const Problem& problem, bool timed, std::vector<MachineEffect>& 
     drift.term = TipDrift{i};
     drift.parameters = {"over_all"};
     drift.formula = "over_all (t - begin)/(end - begin)";
-    drift.shape = {{"begin", first.time_s, "s"}, {"end", last.time_s, "s"}};
+    drift.shape = {{"begin", times.begin_s, "s"}, {"end", times.end_s, "s"}};
     drift.unit = "mm";
     drift.low = 0.5e-3, drift.high = 0.05;
     drift.consequence =
         "it continues while the part is cut, so what it was over the measurement is counted with U";
-    if (!timed || !(last.time_s > first.time_s))
+    if (!timed || !(times.end_s > times.begin_s))
       drift.why_not = "the rows have no times: measure with a column t";
     out.push_back(std::move(drift));
   }
@@ -253,13 +262,15 @@ std::vector<MachineEffect> machine_effects(const Problem& problem, bool timed,
   std::vector<MachineEffect> out;
   for (const MachineAxis& axis : problem.machine->axes)
     if (problem.read_outs())
-      add_read_out(problem, axis.name, timed, out);
+      add_read_out(problem, axis.name, out);
     else
       add_axis(problem, axis.name, out);
   if (problem.read_outs()) {
     out.insert(out.end(), own.begin(), own.end());
     return out;
   }
+  for (const MachineAxis& axis : problem.machine->axes)
+    if (problem.has_read_out(axis.name)) add_zero(problem, axis.name, out);
   add_drifts(problem, timed, out);
   MachineEffect slip;
   slip.id = "ball.slip";

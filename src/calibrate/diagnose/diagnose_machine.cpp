@@ -216,6 +216,7 @@ std::optional<AxisName> axis_of(const MachineTerm& term) {
   if (const auto* sense = std::get_if<ErrorOfSense>(&term)) return sense->axis;
   if (const auto* drift = std::get_if<ZeroDrift>(&term)) return drift->axis;
   if (const auto* step = std::get_if<ZeroStep>(&term)) return step->axis;
+  if (const auto* scale = std::get_if<ZeroScale>(&term)) return scale->axis;
   const auto* error = std::get_if<ErrorOfPosition>(&term);
   if (error == nullptr) return std::nullopt;
   return error->of.value_or(static_cast<AxisName>(error->error.body));

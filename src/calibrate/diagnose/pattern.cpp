@@ -197,14 +197,14 @@ std::vector<PatternFunction> functions_of_two(const Problem& problem, std::size_
 }
 
 std::vector<PatternFunction> functions_of_time(const Problem& problem) {
-  const auto [first, last] = std::ranges::minmax(problem.rows, {}, &Row::time_s);
-  const double begin = first.time_s, length = last.time_s - begin;
+  const TimeSpan times = times_of_tip(problem);
   std::vector<PatternFunction> out;
-  if (!(length > 0.0)) return out;
+  if (!(times.end_s > times.begin_s)) return out;
   const auto add = [&](std::string words, auto&& value) {
     PatternFunction one{std::move(words), MatrixXd(problem.rows.size(), 1), {}, std::nullopt, "t"};
     for (std::size_t i = 0; i < problem.rows.size(); ++i)
-      one.values(static_cast<Index>(i), 0) = value((problem.rows[i].time_s - begin) / length);
+      one.values(static_cast<Index>(i), 0) =
+          value(std::clamp(times.share(problem.rows[i].time_s), 0.0, 1.0));
     out.push_back(std::move(one));
   };
   for (const double share : {0.05, 0.08, 0.12, 0.18, 0.27, 0.5})

@@ -34,7 +34,7 @@ class Planner {
           const ErrorModel& errors, const VectorXd& places)
       : problem_(problem), data_(data.begin(), data.end()), model_(*problem.machine, errors) {
     for (const Row& row : problem.rows) {
-      if (row.kind == MeasurementKind::array) continue;
+      if (row.read_out || row.kind == MeasurementKind::array) continue;
       if (rows_.empty()) file_ = row.file;
       if (row.file != file_) continue;
       rows_.push_back(&row);
@@ -169,6 +169,8 @@ class Planner {
     out.plan.minutes =
         set_up_minutes + seconds_a_position / 60.0 * static_cast<double>(positions.size());
     out.data = data_;
+    for (const Row& row : problem_.rows)
+      if (row.read_out) out.data[row.file].noise_mm = row.sigma_mm;
     MachineMeasurement& file = out.data[file_];
     out.plan.kind = file.kind;
     file.noise_mm = rows_.front()->sigma_mm;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calibrate/diagnose/term.hpp"
 #include "calibrate/estimate/read_out.hpp"
@@ -16,8 +17,9 @@ constexpr std::size_t slips_a_target = 16;  // tried in the search, then refined
 
 /// The way in which an axis goes first: that in which it is assumed to have come before.
 double first_way(const Problem& problem, std::size_t axis) {
+  const Row& first = *std::ranges::find(problem.rows, true, &Row::of_tip);
   for (const Row& row : problem.rows) {
-    const double move = row.axes[axis] - problem.rows.front().axes[axis];
+    const double move = row.read_out ? 0.0 : row.axes[axis] - first.axes[axis];
     if (std::abs(move) > least_move) return move > 0.0 ? 0.5 : -0.5;
   }
   return 0.0;
@@ -43,8 +45,18 @@ struct Columns {
 
   MatrixXd operator()(const ZeroDrift& term) const {
     const TimeSpan times = times_of(problem, term.axis);
+    return of_read_out(term.axis, [&](const Row& row) { return times.share(row.time_s) - 0.5; });
+  }
+
+  /// Half at an end of the range.
+  MatrixXd operator()(const ZeroScale& term) const {
+    const auto position = [&](const Row& row) { return row.axes[index_of(term.axis)]; };
+    AxisRange range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    for (const Row& row : problem.rows)
+      if (row.read_out == term.axis)
+        range = {std::min(range.low, position(row)), std::max(range.high, position(row))};
     return of_read_out(term.axis, [&](const Row& row) {
-      return (row.time_s - times.begin_s) / (times.end_s - times.begin_s) - 0.5;
+      return (position(row) - range.low) / range.length() - 0.5;
     });
   }
 
@@ -67,8 +79,10 @@ struct Columns {
     VectorXd own = VectorXd::Zero(problem.equations);
     for (std::size_t i = 0; i < 3; ++i)
       own += axis->direction[i] * geometry.unit_errors.col(static_cast<Index>(6 * k + first + i));
-    double way = first_way(problem, index), last = problem.rows.front().axes[index];
+    double way = first_way(problem, index);
+    double last = std::ranges::find(problem.rows, true, &Row::of_tip)->axes[index];
     return times_rows(problem, own, [&](const Row& row) {
+      if (row.read_out) return 0.0;  // its own reversal value is always fitted
       const double move = row.axes[index] - last;
       if (std::abs(move) > least_move) way = move > 0.0 ? 0.5 : -0.5;
       last = row.axes[index];
@@ -77,10 +91,9 @@ struct Columns {
   }
 
   MatrixXd operator()(const TipDrift& term) const {
-    const auto [first, last] = std::ranges::minmax(problem.rows, {}, &Row::time_s);
-    const double begin = first.time_s, length = last.time_s - first.time_s;
+    const TimeSpan times = times_of_tip(problem);
     return times_rows(problem, geometry.tip_shift.col(static_cast<Index>(term.direction)),
-                      [&](const Row& row) { return (row.time_s - begin) / length - 0.5; });
+                      [&](const Row& row) { return times.share(row.time_s) - 0.5; });
   }
 };
 
@@ -112,6 +125,7 @@ void add_slips(const Problem& problem, const Geometry& geometry, const MachineEf
                std::vector<Term>& terms) {
   for (std::size_t t = 0; t < problem.targets.size(); ++t) {
     const auto* zero = std::get_if<ZeroStep>(&of.term);
+    if (problem.targets[t].zero != (zero != nullptr)) continue;
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < problem.rows.size(); ++i)
       if (problem.rows[i].target == t && (!zero || problem.rows[i].read_out == zero->axis))

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ranges>
 
-#include "calibrate/estimate/read_out.hpp"
+#include "calibrate/estimate/read_out_rows.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "calibrate/estimate/total_uncertainty.hpp"
 #include "math/covariance.hpp"
@@ -114,26 +114,26 @@ void place_balls(const Problem& problem, const VectorXd& places, Calibration& ou
   }
 }
 
-/// σ of files that state none becomes that of the residuals; once is enough, as what is kept
-/// changes little with it.
-void estimate_noise(std::span<const MachineMeasurement> data, const Solution& solution,
+/// σ of files that state none becomes that of the residuals of the tip; once is enough, as what is
+/// kept changes little with it.
+void estimate_noise(std::span<const MachineMeasurement> data,
+                    std::span<const AxisReadOut> read_outs, const Solution& solution,
                     Problem& problem) {
-  const double sigma_mm = std::max(std::sqrt(solution.variance) * unstated_noise_mm, 1e-9);
+  double square = 0.0, freedom = solution.freedom;
+  for (const Row& row : problem.rows)
+    if (row.read_out)
+      freedom -= 1.0;
+    else
+      square += solution.residuals.segment(row.first, row.equations()).squaredNorm();
+  for (const Target& target : problem.targets)
+    if (target.zero)
+      freedom += static_cast<double>(unknowns_of(read_out_of_file(data, read_outs, target.file)));
+  const double sigma_mm =
+      std::max(std::sqrt(square / std::max(freedom, 1.0)) * unstated_noise_mm, 1e-9);
   for (Row& row : problem.rows) {
-    if (data[row.file].noise_mm) continue;
+    if (row.read_out || data[row.file].noise_mm) continue;
     row.sigma_mm = sigma_mm;
     problem.weights.segment(row.first, row.equations()).setConstant(1.0 / sigma_mm);
-  }
-}
-
-/// σ of read-outs that state none becomes what their own fit leaves, which the diagnosis scales.
-void take_noise(std::span<const MachineMeasurement> data, const std::vector<AxisReadOut>& read_outs,
-                Problem& problem) {
-  for (Row& row : problem.rows) {
-    const double noise = read_outs[row.file].noise;
-    if (data[row.file].noise_mm || !(noise > 0.0)) continue;
-    row.sigma_mm = noise;
-    problem.weights[row.first] = 1.0 / noise;
   }
 }
 
@@ -163,16 +163,22 @@ std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMe
   const ErrorModel& given = alone ? options.errors : out.errors;
   TipFit fit{make_problem(machine, data, given), {}, {}, given};
   Problem& problem = fit.problem;
-  if (alone)
-    take_noise(data, out.read_outs, problem);
-  else
+  take_noise(data, out.read_outs, problem);
+  if (!alone)
     fit.unknowns = location_unknowns(machine, options.largest_length_mm, options.largest_angle_rad);
+  for (const Target& target : problem.targets)
+    if (target.zero && !alone) {
+      const AxisReadOut& one = read_out_of_file(data, out.read_outs, target.file);
+      add_read_out_unknowns(
+          one, is_rotary(one.axis) ? options.largest_angle_rad : options.largest_length_mm,
+          fit.unknowns);
+    }
   for (const MachineMeasurement& file : data)
     if (array_errors && file.kind == MeasurementKind::array)
       add_array_unknowns(file, options.largest_length_mm, fit.unknowns);
   fit.solution = solve(problem, fit.given, fit.unknowns);
   if (!alone && !problem.noise_stated && fit.solution.freedom > 0.0) {
-    estimate_noise(data, fit.solution, problem);
+    estimate_noise(data, out.read_outs, fit.solution, problem);
     fit.solution = solve(problem, fit.given, fit.unknowns);
   }
   const Solution& solution = fit.solution;

@@ -34,16 +34,29 @@ void fill_unit_errors(const Problem& problem, const ErrorModel& errors, const Ve
 std::vector<double> positions_of(const Problem& problem, AxisName axis) {
   std::vector<double> out;
   for (const Row& row : problem.rows)
-    if (row.tells_of(axis)) out.push_back(row.axes[index_of(axis)]);
+    if (problem.tells_of(row, axis)) out.push_back(row.axes[index_of(axis)]);
   return out;
 }
 
-TimeSpan times_of(const Problem& problem, AxisName axis) {
+namespace {
+
+template <class Which>
+TimeSpan times_of_rows(const Problem& problem, const Which& which) {
   TimeSpan out{std::numeric_limits<double>::max(), 0.0};
   for (const Row& row : problem.rows)
-    if (row.tells_of(axis))
-      out = {std::min(out.begin_s, row.time_s), std::max(out.end_s, row.time_s)};
+    if (which(row)) out = {std::min(out.begin_s, row.time_s), std::max(out.end_s, row.time_s)};
   return out;
+}
+
+}  // namespace
+
+TimeSpan times_of(const Problem& problem, AxisName axis) {
+  return times_of_rows(problem, [&](const Row& row) { return row.read_out == axis; });
+}
+
+TimeSpan times_of_tip(const Problem& problem) {
+  return times_of_rows(problem,
+                       [&](const Row& row) { return !row.read_out || problem.read_outs(); });
 }
 
 AxisRange axis_range(const Problem& problem, AxisName axis) {

@@ -36,13 +36,16 @@ VectorXd error_column(const Problem& problem, const Geometry& geometry, const Er
 /// The positions of an axis in all rows that tell of it.
 std::vector<double> positions_of(const Problem& problem, AxisName axis);
 
-/// When those rows were read.
+/// When the read-outs of an axis were read.
 struct TimeSpan {
   double begin_s = 0.0, end_s = 0.0;
+  double share(double time_s) const { return (time_s - begin_s) / (end_s - begin_s); }
 };
 TimeSpan times_of(const Problem& problem, AxisName axis);
+/// When the tip was, with read-outs alone these.
+TimeSpan times_of_tip(const Problem& problem);
 
-/// Their range.
+/// The range of those positions.
 struct AxisRange {
   double low = 0.0, high = 0.0;
   double length() const { return high - low; }

@@ -194,9 +194,13 @@ std::vector<Mistake> mistakes_of(const Machine& machine, std::span<const Machine
 /// machine has.
 std::optional<double> left_mm(const Machine& machine, std::span<const MachineMeasurement> data,
                               const CalibrationOptions& options) {
+  std::vector<MachineMeasurement> tips;  // `read_out_mistake` looks at read-outs
+  std::ranges::copy_if(data, std::back_inserter(tips), [](const MachineMeasurement& file) {
+    return file.kind != MeasurementKind::axis;
+  });
   Calibration fitted;
   fitted.errors = options.errors;
-  if (!fit_tips(machine, data, options, true, fitted) || !fitted.converged) return std::nullopt;
+  if (!fit_tips(machine, tips, options, true, fitted) || !fitted.converged) return std::nullopt;
   if (!implausible(fitted, options).empty()) return std::nullopt;
   return fitted.rms_after_mm;
 }

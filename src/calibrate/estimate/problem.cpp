@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/estimate/read_out.hpp"
+#include "calibrate/estimate/read_out_rows.hpp"
 #include "machine/screw.hpp"
 #include "math/linear_algebra.hpp"
 #include "trueaxis/error.hpp"
@@ -142,51 +142,6 @@ void add_rows(Problem& problem, const MachineMeasurement& file, std::size_t numb
   problem.noise_stated = problem.noise_stated && file.noise_mm;
 }
 
-/// Actual less command of every reading, against a zero of the file's own.
-void add_read_out(Problem& problem, const MachineMeasurement& file, std::size_t number) {
-  const AxisName axis = *file.axis;
-  std::vector<double> position;
-  for (const AxisPositions& at : file.axes) position.push_back(at[index_of(axis)]);
-  Target target;
-  target.file = number;
-  target.zero = true;
-  target.first = problem.places++;
-  if (is_rotary(axis)) target.orders = orders_of_turn(position, file.gear_ratio);
-  const std::vector<double> sense = senses_of(position);
-  for (std::size_t i = 0; i < file.rows(); ++i) {
-    Row row;
-    row.file = number;
-    row.row = i;
-    row.kind = file.kind;
-    row.read_out = axis;
-    row.axes = file.axes[i];
-    row.target = problem.targets.size();
-    if (!sense.empty()) row.sense = sense[i];
-    if (!file.time_s.empty()) row.time_s = file.time_s[i];
-    row.observed[0] = file.actual[i] - position[i];
-    row.sigma_mm = file.noise_mm.value_or(is_rotary(axis) ? unstated_noise_rad : unstated_noise_mm);
-    row.first = problem.equations++;
-    problem.rows.push_back(row);
-  }
-  problem.targets.push_back(std::move(target));
-  problem.noise_stated = problem.noise_stated && file.noise_mm;
-}
-
-/// What a read-out of an axis shows of the machine's errors, mm or rad.
-double read_out_error(const Machine& machine, const ErrorModel& errors, const Row& row) {
-  const AxisName axis = *row.read_out;
-  const auto factors = read_out_factors(*machine.find(axis), errors.sign);
-  double sum = 0.0;
-  for (const ErrorTerm& term : errors.terms) {
-    const std::size_t first = is_rotary(axis) ? 3 : 0;
-    if (!term.name.component || term.name.body != index_of(axis) || term.name.direction < first ||
-        term.name.direction >= first + 3)
-      continue;
-    sum += factors[term.name.direction - first] * value_at(term.function, row.axes[index_of(axis)]);
-  }
-  return sum;
-}
-
 /// A ball wants two positions, of bars four to be placed by, a line three balls.
 void check(const Problem& problem, std::span<const MachineMeasurement> data) {
   std::vector<Diagnostic> wrong;
@@ -217,32 +172,16 @@ void check(const Problem& problem, std::span<const MachineMeasurement> data) {
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 
-/// A read-out that is along none of X Y Z shows a sum of errors. No effect is that sum.
-void check_directions(const Machine& machine, std::span<const MachineMeasurement> data) {
-  std::vector<Diagnostic> wrong;
-  for (const MachineMeasurement& file : data) {
-    const auto& direction = machine.find(*file.axis)->direction;
-    if (std::abs(direction[index_of(*file.axis) % 3]) > 1.0 - 1e-9) continue;
-    const std::string letter(1, letter_of(*file.axis));
-    wrong.push_back({file.source, 0, 0,
-                     letter + " is not along " + "XYZ"[index_of(*file.axis) % 3] +
-                         " of the machine, so a read-out of it is not diagnosed alone: add a "
-                         "measurement of kind ball, or run `trueaxis machine calibrate`, which "
-                         "states its orders, reversal and noise"});
-  }
-  if (!wrong.empty()) throw InputError(std::move(wrong));
-}
-
 /// The rows of all files and their targets, unplaced. @throws InputError as `make_problem` does
 Problem gather(const Machine& machine, std::span<const MachineMeasurement> data) {
   Problem problem;
   problem.machine = &machine;
   const bool alone = read_outs_alone(data);
   for (std::size_t number = 0; number < data.size(); ++number)
-    if (alone)
-      add_read_out(problem, data[number], number);
-    else if (data[number].kind != MeasurementKind::axis)
+    if (data[number].kind != MeasurementKind::axis)
       add_rows(problem, data[number], number);
+    else if (alone || is_along(machine, *data[number].axis))
+      add_read_out(problem, data[number], number, !alone);
   check(problem, data);
   if (alone) check_directions(machine, data);
   problem.weights.resize(problem.equations);
@@ -286,7 +225,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> Target::jacobian(const double* place, d
 double Problem::rms_mm(const VectorXd& of_equations_mm) const {
   double square = 0.0, count = 0.0;
   for (const Row& row : rows) {
-    if (row.angle()) continue;
+    if (row.angle() || (row.read_out && !read_outs())) continue;
     square += of_equations_mm.segment(row.first, row.equations()).squaredNorm();
     count += static_cast<double>(row.equations());
   }
@@ -300,6 +239,7 @@ VectorXd Problem::residuals(const ErrorModel& errors, const VectorXd& at) const 
     const Target& target = targets[row.target];
     if (target.zero) {
       out[row.first] = row.observed[0] - at[target.first] - read_out_error(*machine, errors, row);
+      if (target.two_ways) out[row.first] -= row.sense * at[target.first + 1];
       continue;
     }
     const RowMotion motion = motion_of(model, row);
@@ -320,6 +260,7 @@ MatrixXd Problem::places_jacobian(const ErrorModel& errors, const VectorXd& at) 
     const Target& target = targets[row.target];
     if (target.zero) {
       out(row.first, target.first) = 1.0;
+      if (target.two_ways) out(row.first, target.first + 1) = row.sense;
       continue;
     }
     const RowMotion motion = motion_of(model, row);

@@ -19,11 +19,12 @@ struct Target {
   std::size_t file = 0;
   int setup = 0, ball = 0;
   bool line = false, zero = false;  ///< zero: where a read-out has its 0, one number
+  bool two_ways = false;            ///< of a zero: and its reversal value
   std::vector<int> orders;          ///< of a turn that a read-out was read all around
   Eigen::Vector3d direction = Eigen::Vector3d::Zero(), across[2] = {direction, direction};
   Index first = 0;  ///< of its unknowns among all places
 
-  Index unknowns() const { return zero ? 1 : line ? 5 : 3; }
+  Index unknowns() const { return zero ? (two_ways ? 2 : 1) : line ? 5 : 3; }
   /// The ball at s; `place` are the target's own unknowns.
   Eigen::Vector3d point(const double* place, double s) const;
   /// Its derivatives, a column an unknown.
@@ -44,12 +45,12 @@ struct Row {
   Index equations() const {
     return kind == MeasurementKind::bar || kind == MeasurementKind::axis ? 1 : 3;
   }
-  bool tells_of(AxisName axis) const { return read_out.value_or(axis) == axis; }
+  bool of_tip() const { return !read_out; }
   bool angle() const { return read_out && is_rotary(*read_out); }
 };
 
-/// Rows of all files of kinds ball, bar and array in order, and what they are compared with. For
-/// read-outs alone, a row a reading: an observation of the position error of its axis itself.
+/// Rows of all files in order, and what they are compared with. A reading of a read-out is a row
+/// that observes the position error of its axis itself (Eq. 328).
 struct Problem {
   const Machine* machine = nullptr;
   std::vector<Target> targets;
@@ -59,8 +60,17 @@ struct Problem {
   VectorXd start;            ///< places from the machine with the errors that were given
   VectorXd weights;          ///< 1/σ of every equation
 
-  bool read_outs() const { return !targets.empty() && targets.front().zero; }
-  /// RMS of numbers of the equations, without those of rotary axes' read-outs; of these alone NaN.
+  /// Whether of nothing else.
+  bool read_outs() const { return !targets.empty() && std::ranges::all_of(targets, &Target::zero); }
+  /// Whether a row says where an axis was while the tip, or with read-outs alone that axis, was
+  /// read.
+  bool tells_of(const Row& row, AxisName axis) const {
+    return !row.read_out || (read_outs() && *row.read_out == axis);
+  }
+  bool has_read_out(AxisName axis) const {
+    return std::ranges::find(rows, axis, &Row::read_out) != rows.end();
+  }
+  /// RMS of the tip's numbers, with read-outs alone of those of linear axes (none: NaN).
   double rms_mm(const VectorXd& of_equations_mm) const;
   /// Observed − predicted, mm, a row three equations (a bar's or a read-out's one). Eqs. 170, 171.
   VectorXd residuals(const ErrorModel& errors, const VectorXd& places) const;

@@ -9,6 +9,7 @@
 
 #include "base/angle.hpp"
 #include "calibrate/estimate/periodic_fit.hpp"
+#include "calibrate/estimate/read_out_rows.hpp"
 #include "calibrate/estimate/unknown.hpp"
 #include "infer/significance.hpp"
 #include "math/fourier_sums.hpp"
@@ -278,7 +279,19 @@ std::array<double, 3> read_out_factors(const MachineAxis& axis, ErrorSign sign) 
   return factors;
 }
 
-AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
+double read_out_error(const MachineAxis& axis, const ErrorModel& errors, double position) {
+  const auto factors = read_out_factors(axis, errors.sign);
+  const std::size_t first = is_rotary(axis.name) ? 3 : 0;
+  double sum = 0.0;
+  for (const ErrorTerm& term : errors.terms)
+    if (term.name.component && term.name.body == index_of(axis.name) &&
+        term.name.direction >= first && term.name.direction < first + 3)
+      sum += factors[term.name.direction - first] * value_at(term.function, position);
+  return sum;
+}
+
+AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders,
+                        const std::function<double(double)>& known) {
   check(file);
   AxisReadOut out;
   out.axis = *file.axis;
@@ -286,7 +299,7 @@ AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
   std::vector<double> position, error;
   for (std::size_t i = 0; i < file.rows(); ++i) {
     position.push_back(file.axes[i][index_of(out.axis)]);
-    error.push_back(file.actual[i] - position.back());
+    error.push_back(file.actual[i] - position.back() - (known ? known(position.back()) : 0.0));
   }
   const ReadOutModel model = model_of(file, std::move(position), std::move(error), max_orders);
   const PeriodicFit& fit = model.fit;
@@ -315,14 +328,18 @@ AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
 
 void from_read_outs(const Machine& machine, std::span<const MachineMeasurement> data,
                     const CalibrationOptions& options, Calibration& out) {
+  const bool alone = read_outs_alone(data);
   for (const MachineMeasurement& file : data) {
     if (file.kind != MeasurementKind::axis) continue;
-    AxisReadOut found = read_out_of(file, options.max_orders);
+    const MachineAxis& axis = *machine.find(*file.axis);
+    AxisReadOut found = read_out_of(file, options.max_orders, [&](double position) {
+      return read_out_error(axis, options.errors, position);
+    });
     const std::string zero = std::string(1, letter_of(found.axis)) + "0" + letter_of(found.axis);
     out.not_determined.push_back(
         {{zero, "read-out"},
          zero + " is not told from the zero of the read-out of " + file.source});
-    add_errors(*machine.find(found.axis), found, out);
+    if (alone || !is_along(machine, axis.name)) add_errors(axis, found, out);
     out.read_outs.push_back(std::move(found));
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,12 +30,16 @@ std::vector<double> periods_of(const std::vector<double>& position);
 /// with the sign of errors.
 std::array<double, 3> read_out_factors(const MachineAxis& axis, ErrorSign sign);
 
-/// Position error of an axis: a polynomial of degree 3 at most and orders of a period that is
-/// found, by least squares (Eq. 177).
-AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders);
+/// What a read-out of an axis shows of a machine's errors, mm or rad. Eq. 328.
+double read_out_error(const MachineAxis& axis, const ErrorModel& errors, double position);
 
-/// For every file of kind axis: its read-out, parameters, and the error that follows. The zero of
-/// the read-out has no part in it.
+/// Position error of an axis: a polynomial of degree 3 at most and orders of a period that is
+/// found, by least squares (Eq. 177). @param known of the machine already, which is subtracted
+AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders,
+                        const std::function<double(double)>& known = {});
+
+/// Every file of kind axis by itself, and the error that follows, without the zero, where its
+/// readings are not rows of a problem with a tip: read-outs alone, axes along none of X Y Z.
 void from_read_outs(const Machine& machine, std::span<const MachineMeasurement> data,
                     const CalibrationOptions& options, Calibration& out);
 

@@ -87,9 +87,8 @@ class Together {
     out.size_of_components = effects_.times_all;
     out.noise_basis = fit_.problem.noise_stated && effects_.variance == 1.0 ? NoiseBasis::stated
                                                                             : NoiseBasis::residuals;
-    const VectorXd sigma = fit_.problem.weights.cwiseInverse();
     out.noise_mm =
-        std::sqrt(effects_.variance * sigma.squaredNorm() / static_cast<double>(sigma.size()));
+        std::sqrt(effects_.variance) * fit_.problem.rms_mm(fit_.problem.weights.cwiseInverse());
   }
 
   VectorXd places() const {

@@ -40,8 +40,8 @@ Json finding_json(const MachineFinding& finding) {
 }
 
 /// The alternatives of `MachineTerm`, in their order.
-const Json kinds_of_term[] = {nullptr,     "position",   "sense",    "tip_drift",
-                              "ball_step", "zero_drift", "zero_step"};
+const Json kinds_of_term[] = {nullptr,     "position",   "sense",     "tip_drift",
+                              "ball_step", "zero_drift", "zero_step", "zero_scale"};
 static_assert(std::variant_size_v<MachineTerm> == std::size(kinds_of_term));
 
 /// The meaning of each id of the catalogue, so that nobody takes an id apart: its kind is the
