@@ -131,14 +131,6 @@ VectorXd solve_lower(const Eigen::Ref<const MatrixXd>& l, const VectorXd& b) {
 
 MatrixXd inverse(const MatrixXd& a) { return a.inverse(); }
 
-Triangles::Triangles(const MatrixXd& a) : factors_(a) {}
-
-VectorXd Triangles::solve(const VectorXd& b) const { return factors_.solve(b); }
-
-VectorXd Triangles::solve_transposed(const VectorXd& b) const {
-  return factors_.transpose().solve(b);
-}
-
 Spectrum spectrum(const MatrixXd& symmetric) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric);
   return {eigen.eigenvalues(), eigen.eigenvectors()};

@@ -65,18 +65,6 @@ Eigen::Vector3d solve_normal(const Eigen::Matrix3d& n, const Eigen::Vector3d& b)
 /// A⁻¹ b of a matrix that has an inverse.
 Eigen::Vector3d solve(const Eigen::Matrix3d& a, const Eigen::Vector3d& b);
 MatrixXd inverse(const MatrixXd& a);
-/// A = P⁻¹ L U of one that is met again and again.
-class Triangles {
- public:
-  explicit Triangles(const MatrixXd& a);
-  /// A⁻¹ b and A⁻ᵀ b.
-  VectorXd solve(const VectorXd& b) const;
-  VectorXd solve_transposed(const VectorXd& b) const;
-
- private:
-  Eigen::PartialPivLU<MatrixXd> factors_;
-};
-
 /// N = L Lᵀ.
 class Cholesky {
  public:
