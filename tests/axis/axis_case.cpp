@@ -9,6 +9,7 @@
 #include "axis/draw.hpp"
 #include "blind/families.hpp"
 #include "blind/size.hpp"
+#include "fit/place_set_ups.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::axis {
@@ -210,9 +211,9 @@ Case draw_case(Group group, std::uint64_t seed) {
       draw_part(draw, out);
       draw_noise(draw, out);
       draw_effects(draw, out);
-      virtual_lathe::simulate(out.scenario);
+      place_set_ups(virtual_lathe::simulate(out.scenario));
       return out;
-    } catch (const InputError&) {  // the probe would miss a part as small as that: another
+    } catch (const InputError&) {  // the probe would miss, or the axis is outside: another
       if (again == most_draws) throw;
     }
   }
