@@ -15,6 +15,7 @@ struct ObservationMask {
   std::vector<unsigned char> run;  ///< used readings just before, in unbroken sampling; at most 8
   std::vector<std::size_t> fold_begin;  ///< of contiguous blocks; one more than there are
   std::string block;                    ///< what a block is
+  double alike_mm = 0.0;                ///< error that readings share, as if each had it alone
 
   std::size_t folds() const { return fold_begin.size() - 1; }
   void mask(std::size_t reading) { used[reading] = 0; }

@@ -70,7 +70,8 @@ NormalEquations::NormalEquations(const LinearisationPoint& point, const Observat
   for (std::size_t i = 0; i < point.size(); ++i)
     sum += mask.used[i] ? deviation_[i] * deviation_[i] : 0.0;
   floor2_ = std::max(least_floor_mm * least_floor_mm,
-                     second_order * second_order * sum / static_cast<double>(point.size()));
+                     second_order * second_order * sum / static_cast<double>(point.size())) +
+            mask.alike_mm * mask.alike_mm;
   base_.resize(point.base.columns());
   std::iota(base_.begin(), base_.end(), 1U);
   pass({}, 0);

@@ -2,6 +2,8 @@
 #include "diagnose/search/ideal_model.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <optional>
 #include <utility>
 
@@ -11,9 +13,12 @@
 #include "diagnose/search/dictionary.hpp"
 #include "diagnose/search/scan_steps.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
+
+constexpr int harmonics_of_rounding = 8;  // the others have a fifteenth of its square
 
 LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double ball_mm,
                          int threads) {
@@ -36,6 +41,27 @@ std::vector<const Effect*> causes_of(const BaseKind& base, const Resolution& res
 /// size.
 double rounding_that_shows(double step_mm, std::span<const double> deviation_mm) {
   return step_mm > 0.0 && step_mm > mad_sigma(deviation_mm) ? step_mm : 0.0;
+}
+
+/// Readings with hardly any noise, of true values that are alike, have the same error of rounding,
+/// which no repetition averages. Its variance as if each had it alone, beyond that of its own
+/// (Eq. 329).
+double alike_by_rounding(const Problem& problem, std::span<const double> reading_mm) {
+  const double step_mm = problem.rounding_mm;
+  if (!(step_mm > 0.0) || !problem.resolution.sparse) return 0.0;
+  const double spread = mad_sigma(problem.deviation_mm) / step_mm;
+  const double noise = std::max(spread * spread - 1.0 / 12.0, 0.0);
+  const auto count = static_cast<double>(reading_mm.size());
+  double sum = 0.0;
+  for (int k = 1; k <= harmonics_of_rounding; ++k) {
+    std::complex<double> alike = 0.0;
+    for (std::size_t i = 0; i < reading_mm.size(); ++i)
+      alike += std::polar(1.0, two_pi * k * (reading_mm[i] - problem.deviation_mm[i]) / step_mm);
+    const double amplitude =
+        2.0 * step_mm / (two_pi * k) * std::exp(-0.5 * std::pow(two_pi * k, 2) * noise);
+    sum += 0.5 * amplitude * amplitude * (std::norm(alike) / count - 1.0);
+  }
+  return std::sqrt(std::max(sum, 0.0));
 }
 
 /// Masks the readings that do not count. A large step leaves those about it far from any smooth
@@ -95,6 +121,8 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
               static_cast<std::size_t>(options.max_findings),
               causes_of(point.base, resolution, options.own_effects),
               rounding_that_shows(indicated.step, deviation_mm)},
-      masked(exclude(problem, mask)) {}
+      masked(exclude(problem, mask)) {
+  mask.alike_mm = alike_by_rounding(problem, measured.reading_mm);
+}
 
 }  // namespace trueaxis::diagnose_detail

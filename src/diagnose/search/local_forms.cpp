@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "diagnose/regression/size_prior.hpp"
+#include "diagnose/search/causes.hpp"
+#include "infer/fitted.hpp"
 #include "math/linear_algebra.hpp"
 #include "trueaxis/units.hpp"
 

@@ -21,6 +21,7 @@ constexpr double correlation_moved = 0.02;
 constexpr std::size_t fits_kept = 4;
 constexpr std::size_t asked_at_once = 2;  // where the first is exchanged, the next was in vain
 constexpr double hides_a_term = 0.3;      // |φ|: less hardly weakens one
+constexpr double told_by_others = 0.01;   // of a column's square: less, ten times the u of its size
 
 bool moved(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return true;
@@ -223,20 +224,34 @@ class StepwiseSearch::Engine {
     return made_.emplace_back(model_.phi, terms, std::move(equations), std::move(places));
   }
 
-  /// Pooled held-out sum of squares.
-  static double held_out_by(const Made& made, const Columns& columns) {
-    double sum = 0.0;
-    for (const Eigen::MatrixXd& fold : made.equations.folds())
-      sum += held_out_fast(made.in.gram, fold, columns);
-    return sum;
+  /// Whether the blocks but one tell a term: of a bend in three sections, two hold nothing.
+  static bool is_told(const Made& made, std::size_t i, const Eigen::MatrixXd& fold) {
+    const Eigen::MatrixXd others = made.in.gram - fold;
+    const Projection in_others = project(others, made.in.besides(i)), in_all = made.in.beside(i);
+    return std::ranges::any_of(made.in.terms[i], [&](std::size_t column) {
+      const auto c = static_cast<Eigen::Index>(column);
+      return in_others.gram(c, c) > told_by_others * in_all.gram(c, c);
+    });
   }
 
-  /// Whether it is less with a term than without it.
+  /// Whether the pooled held-out sum of squares is less with a term than without it.
   static bool predicts(const Made& made, std::size_t i) {
     const Hypothesis& h = made.terms[i];
     // Of a step and of a local form the other blocks may hold nothing.
     if (h.effect ? is_step(h.effect->term) : h.pattern.kind == Pattern::Kind::bump) return true;
-    return held_out_by(made, made.in.besides()) < held_out_by(made, made.in.besides(i));
+    const Columns all = made.in.besides(), others = made.in.besides(i);
+    double gain = 0.0, told_gain = 0.0;
+    for (const Eigen::MatrixXd& fold : made.equations.folds())
+      gain += held_out_fast(made.in.gram, fold, others) - held_out_fast(made.in.gram, fold, all);
+    if (gain > 0.0) return true;
+    bool told = false;
+    for (const Eigen::MatrixXd& fold : made.equations.folds()) {
+      if (!is_told(made, i, fold)) continue;
+      told = true;
+      told_gain +=
+          held_out_fast(made.in.gram, fold, others) - held_out_fast(made.in.gram, fold, all);
+    }
+    return !told || told_gain > 0.0;
   }
 
   /// Whether its sizes after all others are.
