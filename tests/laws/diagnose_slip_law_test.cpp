@@ -99,9 +99,8 @@ TEST(SlipAtAnEnd, IsSeenATurnBeforeTheEnd) {
   EXPECT_TRUE(has_slip(diagnosed(simulate(scenario))));
 }
 
-/// A part that slips by (12, 9) µm before a reading, probed in sections of 24 angles, one a second.
-Scenario probed_in_sections(std::uint64_t seed, int sections, double reading) {
-  constexpr double per_turn = 24.0;
+/// A part that slips by (12, 9) µm before a reading, probed in sections, one a second.
+Scenario probed_in_sections(std::uint64_t seed, int sections, double per_turn, double reading) {
   Scenario scenario = probed_part(PartKind::cylinder);
   scenario.seed = seed;
   scenario.noise.sigma_mm = 0.001;
@@ -120,12 +119,12 @@ Scenario probed_in_sections(std::uint64_t seed, int sections, double reading) {
   return scenario;
 }
 
-// Twelve readings after the slip are of one section: they tell a shift and not a tilt as well. Of
-// the form with both the fit ran away, and a local form without a cause took its place: the axis
-// was off by the slip. 15 µm with u 1 µm √(4/12) are 26 u.
+// The readings after the slip are of one section: they tell a shift and not a tilt as well. Of the
+// form with both the fit ran away, and a local form without a cause took its place: the axis was
+// off by the slip. 15 µm with u 1 µm √(4/18) are 30 u.
 TEST(SlipInSections, IsFoundInTheLastOne) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Scenario scenario = probed_in_sections(seed, 5, 4 * 24 + 12);
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Scenario scenario = probed_in_sections(seed, 5, 36.0, 4 * 36 + 18);
     const Diagnosis diagnosis = diagnosed(simulate(scenario));
     EXPECT_TRUE(has_slip(diagnosis)) << "seed " << seed;
     const Part& part = scenario.part;
@@ -144,7 +143,7 @@ TEST(SlipInSections, IsFoundInTheLastOne) {
 // What is bent may then as well have slipped between two of them.
 TEST(SlipInSections, MayBeABendOfThree) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Diagnosis diagnosis = diagnosed(simulate(probed_in_sections(seed, 3, 24)));
+    const Diagnosis diagnosis = diagnosed(simulate(probed_in_sections(seed, 3, 24.0, 24)));
     EXPECT_TRUE(std::ranges::any_of(diagnosis.findings,
                                     [](const Finding& finding) {
                                       return finding.may_be("part.slip") &&
