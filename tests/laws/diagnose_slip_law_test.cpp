@@ -119,9 +119,9 @@ Scenario probed_in_sections(std::uint64_t seed, int sections, double per_turn, d
   return scenario;
 }
 
-// The readings after the slip are of one section: they tell a shift and not a tilt as well. Of the
-// form with both the fit ran away, and a local form without a cause took its place: the axis was
-// off by the slip. 15 µm with u 1 µm √(4/18) are 30 u.
+// The readings after the slip are of one section: they tell a shift and not a tilt as well. A fit
+// of both ran away, and a local form without a cause took its place: the axis was off by the slip.
+// 15 µm with u 1 µm √(4/18) are 30 u.
 TEST(SlipInSections, IsFoundInTheLastOne) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const Scenario scenario = probed_in_sections(seed, 5, 36.0, 4 * 36 + 18);
@@ -139,8 +139,8 @@ TEST(SlipInSections, IsFoundInTheLastOne) {
   }
 }
 
-// Of three sections two say nothing of a bend: no block predicts another, and that is no objection.
-// What is bent may then as well have slipped between two of them.
+// Two of three sections say nothing about a bend, so that no block can speak against it. What is
+// bent may then as well have slipped between two of them.
 TEST(SlipInSections, MayBeABendOfThree) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Diagnosis diagnosis = diagnosed(simulate(probed_in_sections(seed, 3, 24.0, 24)));

@@ -224,7 +224,7 @@ class StepwiseSearch::Engine {
     return made_.emplace_back(model_.phi, terms, std::move(equations), std::move(places));
   }
 
-  /// Whether the blocks but one tell a term: of a bend in three sections, two hold nothing.
+  /// Whether the blocks but one tell a term: two of three sections hold nothing about a bend.
   static bool is_told(const Made& made, std::size_t i, const Eigen::MatrixXd& fold) {
     const Eigen::MatrixXd others = made.in.gram - fold;
     const Projection in_others = project(others, made.in.besides(i)), in_all = made.in.beside(i);
