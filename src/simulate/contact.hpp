@@ -66,7 +66,7 @@ std::optional<double> root_from_outside(const F& f, double ideal, double depth_l
   constexpr double step = 0.01;
   double high = ideal + 0.5, f_high = f(high);
   while (!(f_high > 0.0)) {
-    if (high > ideal + depth_limit) return std::nullopt;
+    if (!(high <= ideal + depth_limit)) return std::nullopt;
     high += 0.5;
     f_high = f(high);
   }

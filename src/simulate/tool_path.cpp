@@ -7,6 +7,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -48,8 +49,9 @@ Touch touching(const CutProgram& program, double z_centre_mm) {
     const double z = z_centre_mm + nose * std::sin(phi);
     return -(side * section_mm(program, z) + nose * std::cos(phi));
   };
+  std::uintmax_t steps = 200;
   const auto [phi, least] =
-      boost::math::tools::brent_find_minima(negative, -0.25 * two_pi, 0.25 * two_pi, 50);
+      boost::math::tools::brent_find_minima(negative, -0.25 * two_pi, 0.25 * two_pi, 50, steps);
   return {-side * least, z_centre_mm + nose * std::sin(phi)};
 }
 

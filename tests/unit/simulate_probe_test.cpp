@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
+#include "simulate/contact.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -184,6 +186,15 @@ TEST(SimulateProbe, RelativeGaugeHidesAConstant) {
   EXPECT_EQ(stream.indication, Indication::relative);
   EXPECT_EQ(stream.nominal_radius_mm, 40.0);
   for (const double x : stream.reading_mm) EXPECT_NEAR(x, 0.1, exact_mm);
+}
+
+TEST(SimulateProbe, NoNumberHasNoContactAndTheSearchForItEnds) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto gap = [&](double) { return none; };
+  EXPECT_FALSE(root_near(gap, 0.0));
+  EXPECT_FALSE(root_outside(gap, 0.0, 100.0));
+  EXPECT_FALSE(root_from_outside(gap, 0.0, 1.0));
+  EXPECT_FALSE(root_from_outside(gap, none, 1.0));
 }
 
 TEST(SimulateProbe, AMissedPartIsAnInputError) {

@@ -135,8 +135,8 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
                           static_cast<double>(problem.point.size());
   for (std::size_t v = 0; v < values.size(); ++v) {
     FitParameter p{values[v].name, {values[v].value, std::sqrt(variance[v]), values[v].unit, ""}};
-    if (is_step(h.effect->term) && p.estimate.unit == "s") {  // a date or a duration
-      if (p.name == "duration" && p.estimate.value == 0.0) continue;
+    if (is_step(h.effect->term) && p.estimate.unit == "s") {       // a date or a duration
+      if (p.name != "onset" && p.estimate.value == 0.0) continue;  // a step, an even creep
       if (!problem.point.has_time) p.estimate.unit = "reading";
       p.estimate.u = std::hypot(p.estimate.u, interval / std::sqrt(12.0));
     } else if (!determined) {

@@ -21,7 +21,7 @@ constexpr double most_odds = 4.0;
 
 /// Whether the readings after a step tell all of its form. Where they are of one section, a shift
 /// and a tilt do the same to them, and a fit of both runs away.
-bool is_told(const Hypothesis& h, const Projection& beside, const Columns& own) {
+bool tells_whole_form(const Hypothesis& h, const Projection& beside, const Columns& own) {
   if (!h.effect || !is_step(h.effect->term)) return true;
   const Eigen::VectorXd right = beside.gram(own, {0});
   return size_prior(h).allows(linear::least_squares(beside.gram(own, own), right));
@@ -96,7 +96,7 @@ std::vector<Candidate> judge(const NormalEquations& equations, const Solution& t
     if (s.rank > 0) {
       const Weighed weighed = weigh(list[h], projection, places[h], equations.count());
       c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
-      c.possible = weighed.possible && is_told(list[h], projection, places[h]);
+      c.possible = weighed.possible && tells_whole_form(list[h], projection, places[h]);
       c.extraordinary = weighed.extraordinary;
     }
     out.push_back(std::move(c));

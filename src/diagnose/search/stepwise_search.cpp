@@ -225,7 +225,7 @@ class StepwiseSearch::Engine {
   }
 
   /// Whether the blocks but one tell a term: two of three sections hold nothing about a bend.
-  static bool is_told(const Made& made, std::size_t i, const Eigen::MatrixXd& fold) {
+  static bool others_tell(const Made& made, std::size_t i, const Eigen::MatrixXd& fold) {
     const Eigen::MatrixXd others = made.in.gram - fold;
     const Projection in_others = project(others, made.in.besides(i)), in_all = made.in.beside(i);
     return std::ranges::any_of(made.in.terms[i], [&](std::size_t column) {
@@ -246,7 +246,7 @@ class StepwiseSearch::Engine {
     if (gain > 0.0) return true;
     bool told = false;
     for (const Eigen::MatrixXd& fold : made.equations.folds()) {
-      if (!is_told(made, i, fold)) continue;
+      if (!others_tell(made, i, fold)) continue;
       told = true;
       told_gain +=
           held_out_fast(made.in.gram, fold, others) - held_out_fast(made.in.gram, fold, all);
