@@ -122,6 +122,16 @@ TEST(ServoComponent, InterpolatesAsTheLibraryDoes) {
   }
 }
 
+// A hair before the first row is one before the end of a turn, whose remainder rounds to a turn.
+TEST(ServoComponent, ATurnLessARoundingIsAtItsBeginning) {
+  const CorrectionRows rows = rows_in(correction_csv(correction_of(ordinary)));
+  const double first = rows.position_mm.front(), feed = rows.position_mm[ordinary.rows] - first;
+  for (const double revolution : {0.0, 0.3, 1.6})
+    EXPECT_EQ(
+        table_value_mm(rows, rows.command_mm, ordinary.rows, -1e-20, first + revolution * feed),
+        table_value_mm(rows, rows.command_mm, ordinary.rows, 0.0, first + revolution * feed));
+}
+
 // What is interpolated is the correction at any C and Z of the path, and equal on both sides of
 // 360°. It is off by straight lines between rows (Eq. 114a) and by the digits of the table.
 TEST(ServoComponent, FollowsTheWantedCorrection) {
