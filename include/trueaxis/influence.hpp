@@ -16,7 +16,7 @@ struct Influence {
     z_offset,        ///< Z datum, mm
     ball_radius,     ///< radius of the probe's ball, mm
     probe_tilt,      ///< of the probe line towards Z, rad; for diagnoses only, as are the next
-    probe_delay,     ///< of X after C and Z, s
+    probe_delay,     ///< age of X when C and Z are recorded, s
     probe_lag,       ///< time constant of the probe, s
     xz_parallelism,  ///< of the Z slide and the spindle in X, rad
   } kind;

@@ -56,7 +56,12 @@ std::optional<std::pair<double, double>> overlap_mm(const PlannedJob& result, st
       fit.surface == SurfaceKind::own || face != (fit.surface == SurfaceKind::plane))
     return std::nullopt;
   const auto [low, high] = std::minmax({target.path_start_mm(), target.path_end_mm()});
-  const double from = std::max(low, fit.position_min_mm), to = std::min(high, fit.position_max_mm);
+  // A face is probed at X < 0 as well: its radii, and those of the target, are |X|.
+  const double nearest =
+      face && fit.position_max_mm < 0.0 ? -fit.position_max_mm : fit.position_min_mm;
+  const double farthest =
+      face ? std::max(-fit.position_min_mm, fit.position_max_mm) : fit.position_max_mm;
+  const double from = std::max(low, nearest), to = std::min(high, farthest);
   return from < to ? std::optional(std::pair(from, to)) : std::nullopt;
 }
 

@@ -8,7 +8,7 @@
 
 namespace trueaxis {
 
-/// Z (of a face X) from and to where the target lies on the probed length of a reference, mm.
+/// Z (of a face |X|) from and to where the target lies on the probed length of a reference, mm.
 /// Nothing where they do not meet, or where the readings show no place of the surface (a relative
 /// gauge, a face next to a shaft).
 std::optional<std::pair<double, double>> overlap_mm(const PlannedJob& result,

@@ -70,7 +70,8 @@ double face_radius(const JobResult& result, std::size_t i) {
   if (i >= result.streams.size() || result.streams[i].kind != StreamKind::face) return 0.0;
   const double given =
       i < result.job.references.size() ? result.job.references[i].face_radius_mm : 0.0;
-  return given > 0.0 ? given : result.fits[i].position_max_mm;
+  const FitResult& fit = result.fits[i];
+  return given > 0.0 ? given : std::max(-fit.position_min_mm, fit.position_max_mm);
 }
 
 Json remainder_data(const Remainder& left) {

@@ -9,6 +9,7 @@
 #include "job/files/job_words.hpp"
 #include "job/material.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
@@ -115,6 +116,26 @@ TEST(CutChecks, OfAFaceTheMaterialLiesAlongZ) {
     EXPECT_NEAR(over->least.material_mm, 3.0 - z_mm, 1e-3);
     EXPECT_EQ(cut_objection(result).empty(), z_mm < 3.0) << cut_objection(result);
   }
+}
+
+// A face is there at X as at −X: whichever the probe reads, the same material is above the target.
+TEST(CutChecks, AFaceProbedFromTheRearHasItsMaterial) {
+  TargetSurface face;
+  face.kind = TargetKind::face;
+  face.z_face_mm = face.z_start_mm = face.z_end_mm = -20.0;
+  face.radius_start_mm = 38.0, face.radius_end_mm = 20.0;
+  Job job = job_of(face, SurfaceKind::plane);
+  ProbeStream rear = probed(PartKind::face);
+  for (double& x : rear.position_mm) x = -x;
+  for (double& c : rear.c_rad) c += pi;  // the same places of the part
+  EXPECT_THROW(run_job(job, {rear}), InputError);
+  job.stock_mm = 0.25;
+  const JobResult result = run_job(job, {rear});
+  const auto over = material_over(result, 0);
+  ASSERT_TRUE(over);
+  EXPECT_NEAR(over->most.material_mm, 3.0 + 20.0, 1e-3);
+  EXPECT_TRUE(says(cut_objection(result), "more than the stated stock of 250 µm"))
+      << cut_objection(result);
 }
 
 // u of the axis grows as √(1 + 12 d²/L²) with the distance d from the middle of the length L.
