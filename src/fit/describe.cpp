@@ -278,9 +278,9 @@ void add_notes(const ReadingNoise& noise, FitResult& result) {
            .abs() > limit)
           .count();
   if (far > 0 && limit > 0.0 && result.sigma_mm > 1e-9) {
-    result.notes.push_back(
-        fmt::format("{} beyond 6 robust σ: outliers? fit with a robust loss (tukey)",
-                    counted(static_cast<std::size_t>(far), "reading lies", "readings lie")));
+    result.notes.push_back(fmt::format(
+        "{} beyond {} robust σ: outliers? fit with a robust loss (tukey)",
+        counted(static_cast<std::size_t>(far), "reading lies", "readings lie"), suspect_sds));
   }
 }
 

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens a report in headless Chromium as a reader would, wide, on a phone, in the dark and on paper, and lists what is wrong:
+// Opens reports in headless Chromium as a reader would, wide, on a phone, in the dark and on paper, and lists what is wrong:
 //   node report_page.mjs REPORT.html [--folded] [FOLDER_FOR_SCREENSHOTS]
+//   node report_page.mjs --each     reads such words, one report a line as a JSON array; "--" ends what is said of each
 // --folded opens it wide and prints its banner, no more.
 // Pictures of whole pages are half of the work, so that they are made when they are asked for.
 import {existsSync, mkdirSync} from 'node:fs';
 import {join, resolve} from 'node:path';
+import {createInterface} from 'node:readline';
 import {pathToFileURL} from 'node:url';
 import {launch} from './browser.mjs';
 
 
-const folded = process.argv.includes('--folded');
-const [report, folder] = process.argv.slice(2).filter((word) => word !== '--folded');
-if (!report) {
-  console.error('usage: node report_page.mjs REPORT.html [--folded] [FOLDER_FOR_SCREENSHOTS]');
-  process.exit(2);
-}
-if (folder) mkdirSync(folder, {recursive: true});
-const shoot = async (page, name) => { if (folder) await page.screenshot({path: join(folder, name), fullPage: true}); };
+const shoot = async (page, folder, name) => { if (folder) await page.screenshot({path: join(folder, name), fullPage: true}); };
 
 /** What is wrong with each chart, seen from inside the page. */
 function inspectCharts() {
@@ -142,14 +137,14 @@ function inspectContrast() {
 const paperIsDark = () => { const [r, g, b] = getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number); return r + g + b < 200; };
 
 /** When it gets dark: dark paper that all can be read on; then printed: light, unfolded and nothing beyond the paper's width. */
-async function lookDark(page) {
+async function lookDark(page, folder) {
   const problems = [];
   page.on('pageerror', (error) => problems.push(`dark: page error: ${error.message}`));
   await page.emulateMedia({colorScheme: 'dark'});
   await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
   if (!await page.evaluate(paperIsDark)) problems.push('dark: the page is light');
   problems.push(...(await page.evaluate(inspectContrast)).map((problem) => `dark: ${problem}`));
-  await shoot(page, 'dark.png');
+  await shoot(page, folder, 'dark.png');
   await page.evaluate(() => document.querySelectorAll('details').forEach((d) => { d.open = false; }));
   // As a browser does: the page is told first, and then has the width and the rules of paper. It waits for no frame.
   const charts = await page.evaluate(`window.dispatchEvent(new Event('beforeprint')); (${inspectCharts})()`);
@@ -176,7 +171,7 @@ const inspectSmall = () => [...document.querySelectorAll('table')].filter((one) 
 const inspectClipped = () => [...document.querySelectorAll('.scroll, .chart')].filter((box) => box.offsetParent && box.scrollWidth > box.clientWidth + 1)
   .map((box) => `${box.className} is clipped: ${box.scrollWidth} px where there are ${box.clientWidth}: ${box.textContent.slice(0, 40)}`);
 
-async function look(browser, {name, width, height}) {
+async function look(browser, {report, folded, folder}, {name, width, height}) {
   const page = await browser.newPage({viewport: {width, height}});
   page.setDefaultTimeout(120000);  // a busy machine draws slowly
   const problems = [];
@@ -198,7 +193,7 @@ async function look(browser, {name, width, height}) {
     await Promise.race([ready, broken]);
     console.log(`${name} folded: ${(await page.evaluate(() => document.documentElement.scrollHeight) / height).toFixed(1)} screens`);
     problems.push(...await page.evaluate(inspectWidth));
-    await shoot(page, `${name}_folded.png`);
+    await shoot(page, folder, `${name}_folded.png`);
     console.log(await page.evaluate(() => document.querySelector('.banner')?.innerText ?? ''));
     if (folded) return {page, problems};
     await page.evaluate(() => { window.trueaxisReport.unfold(); });
@@ -214,19 +209,36 @@ async function look(browser, {name, width, height}) {
   } catch (error) {
     problems.push(`the page does not get ready: ${error.message}`);
   }
-  await shoot(page, `${name}.png`);
+  await shoot(page, folder, `${name}.png`);
   return {page, problems: problems.map((problem) => `${name}: ${problem}`)};
 }
 
-if (!existsSync(report)) {
-  console.error(`${report} is not there`);
+/** What is wrong with a report, by the words of a command line. */
+async function judge(browser, words) {
+  const [report, folder] = words.filter((word) => word !== '--folded');
+  const asked = {report, folder, folded: words.includes('--folded')};
+  if (!existsSync(report)) return [`${report} is not there`];
+  if (folder) mkdirSync(folder, {recursive: true});
+  const {page, problems} = await look(browser, asked, {name: 'wide', width: 1400, height: 1000});
+  if (!asked.folded) problems.push(...(await look(browser, asked, {name: 'phone', width: 390, height: 844})).problems);
+  if (!asked.folded && !problems.length) problems.push(...await lookDark(page, folder));
+  await Promise.all(browser.contexts().map((context) => context.close()));
+  return problems;
+}
+
+const words = process.argv.slice(2);
+if (!words.length) {
+  console.error('usage: node report_page.mjs REPORT.html [--folded] [FOLDER_FOR_SCREENSHOTS]');
   process.exit(2);
 }
 const browser = await launch();
-const {page, problems} = await look(browser, {name: 'wide', width: 1400, height: 1000});
-if (!folded) problems.push(...(await look(browser, {name: 'phone', width: 390, height: 844})).problems);
-if (!folded && !problems.length) problems.push(...await lookDark(page));
+let wrong = 0;
+for await (const asked of words[0] === '--each' ? createInterface({input: process.stdin}) : [JSON.stringify(words)]) {
+  const problems = await judge(browser, JSON.parse(asked));
+  problems.forEach((problem) => console.log(problem));
+  console.log(problems.length ? `${problems.length} problems` : 'the report is sound');
+  if (words[0] === '--each') console.log('--');
+  wrong += problems.length;
+}
 await browser.close();
-problems.forEach((problem) => console.error(problem));
-console.log(problems.length ? `${problems.length} problems` : 'the report is sound');
-process.exit(problems.length ? 1 : 0);
+process.exit(wrong ? 1 : 0);

@@ -92,6 +92,22 @@ TEST_P(RobustLaw, HuberIsBiasedByAFractionOfTheNoise) {
   }
 }
 
+// The σ of 1000 residuals from their median is uncertain by 4 %: 8 σ are beyond 6 of it, 4.5 are
+// not.
+TEST_P(RobustLaw, APlainFitCountsWhatLiesBeyondSixSigma) {
+  const LawCase c = example(GetParam(), 3);
+  SCOPED_TRACE(to_literal(c));
+  ProbeStream stream = probe(c);
+  const std::vector<double> residual_mm = fit(stream, options_of(c)).residual_mm;
+  const auto lies = [&](std::size_t row, double sds) {
+    stream.reading_mm[row] += sds * sigma_mm - residual_mm[row];
+  };
+  lies(100, 8.0), lies(500, -8.0), lies(700, 4.5), lies(800, -4.5);
+  const FitResult plain = fit(stream, options_of(c));
+  ASSERT_FALSE(plain.notes.empty());
+  EXPECT_NE(plain.notes.back().find("2 readings lie"), std::string::npos) << plain.notes.back();
+}
+
 TEST_P(RobustLaw, OnCleanReadingsLikeLeastSquares) {
   for (const Loss loss : {Loss::huber, Loss::tukey}) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
@@ -25,7 +30,7 @@ inline std::string read_page(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// The folder of the pages' pictures as an argument, where the environment asks for pictures.
+/// The folder of a plain page's pictures as an argument, where the environment asks for pictures.
 inline std::string pictures(const std::filesystem::path& folder) {
   return std::getenv("TRUEAXIS_PICTURES") ? " '" + folder.string() + "'" : "";
 }
@@ -36,18 +41,55 @@ struct Opinion {
   std::string log;
 };
 
+/// One browser for all pages of a program: it opens them one after the other until the program
+/// ends. It is asked by a pipe and answers by a named one.
+class Browser {
+ public:
+  static Browser& of_all() {
+    static Browser one;
+    return one;
+  }
+  Opinion operator()(const std::filesystem::path& page, const std::string& option) {
+    nlohmann::json words = nlohmann::json::array({page.string()});
+    if (!option.empty()) words.push_back(option);
+    if (std::getenv("TRUEAXIS_PICTURES")) words.push_back(page.parent_path().string());
+    std::fprintf(asked_, "%s\n", words.dump().c_str());
+    std::fflush(asked_);
+    Opinion out;
+    for (std::string line; std::getline(said_, line) && line != "--"; out.log += line + "\n")
+      out.sound = line == "the report is sound";
+    return out;
+  }
+
+ private:
+  Browser() {
+    const std::string answers =
+        places::scratch() + "/browser_" + std::to_string(::getpid()) + ".pipe";
+    ::mkfifo(answers.c_str(), 0600);
+    asked_ = ::popen(
+        ("node '" + places::source() + "/tests/e2e/report_page.mjs' --each >'" + answers + "' 2>&1")
+            .c_str(),
+        "w");
+    said_.open(answers);
+    std::filesystem::remove(answers);
+  }
+  ~Browser() { ::pclose(asked_); }
+  Browser(const Browser&) = delete;
+
+  std::FILE* asked_ = nullptr;
+  std::ifstream said_;
+};
+
 /// Opened with all its looks, or with the option `--folded`: wide and folded, for its banner.
 inline Opinion open_page(const std::string& html, const std::string& name,
                          const std::string& option = "") {
   const std::filesystem::path folder = std::filesystem::path(places::scratch()) / "report" / name;
   std::filesystem::create_directories(folder);
-  const std::filesystem::path page = folder / "report.html", log = folder / "log.txt";
+  const std::filesystem::path page = folder / "report.html";
   std::ofstream(page, std::ios::binary) << html;
-  const std::string command = "node '" + places::source() + "/tests/e2e/report_page.mjs' '" +
-                              page.string() + "' " + option + pictures(folder) + " >'" +
-                              log.string() + "' 2>&1";
-  const bool sound = std::system(command.c_str()) == 0;
-  return {sound, read_page(log)};
+  const Opinion out = Browser::of_all()(page, option);
+  std::ofstream(folder / "log.txt") << out.log;
+  return out;
 }
 
 }  // namespace trueaxis::example
