@@ -122,7 +122,7 @@ TEST(ServoComponent, InterpolatesAsTheLibraryDoes) {
   }
 }
 
-// A hair before the first row is one before the end of a turn, whose remainder rounds to a turn.
+// A hair before the first row is one before the end of a turn: the remainder rounds up to 1.
 TEST(ServoComponent, ATurnLessARoundingIsAtItsBeginning) {
   const CorrectionRows rows = rows_in(correction_csv(correction_of(ordinary)));
   const double first = rows.position_mm.front(), feed = rows.position_mm[ordinary.rows] - first;
