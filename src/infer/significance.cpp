@@ -9,6 +9,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace trueaxis::infer {
 namespace {
@@ -49,6 +50,7 @@ double Family::single_level(double level) const { return std::exp(-0.5 * thresho
 
 double detection_power(double lambda, double rank, double freedom, double single_p) {
   using namespace boost::math;
+  if (freedom < 1.0) return 0.0;  // its p-value is 1 (`log_p_value`)
   if (std::isinf(freedom)) {
     const double threshold = quantile(complement(chi_squared(rank), single_p));
     if (lambda > surely_found * threshold) return 1.0;
@@ -60,6 +62,7 @@ double detection_power(double lambda, double rank, double freedom, double single
 }
 
 double required_lambda(double rank, double freedom, double single_p, double power) {
+  if (freedom < 1.0) return std::numeric_limits<double>::infinity();
   const auto excess = [&](double lambda) {
     return detection_power(lambda, rank, freedom, single_p) - power;
   };

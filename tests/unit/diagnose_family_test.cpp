@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "diagnose/explain/observable.hpp"
+#include "infer/significance.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -126,6 +127,15 @@ TEST(DetectionPower, IsTheTableOfOneCause) {
     EXPECT_NEAR(detection_power(lambda, 2, Family{1.0, 0.0}, -std::expm1(-0.05)), powers[k], 0.008)
         << amplitudes_um[k];
   }
+}
+
+// Readings that a term uses up to the last leave nothing to test it by: its p-value is 1, so that
+// no size is found.
+TEST(DetectionPower, NothingIsFoundWithoutADegreeOfFreedom) {
+  EXPECT_EQ(infer::log_p_value(10.0, 2.0, 10.0, 2.0), 0.0);
+  EXPECT_EQ(infer::detection_power(1e6, 2.0, 0.0, 0.01), 0.0);
+  EXPECT_TRUE(std::isinf(infer::required_lambda(2.0, 0.0, 0.01, 0.5)));
+  EXPECT_TRUE(std::isfinite(infer::required_lambda(2.0, 1.0, 0.01, 0.5)));
 }
 
 }  // namespace
