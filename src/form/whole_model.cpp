@@ -118,6 +118,13 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections,
   }
   middle_mm_ = 0.5 * (low + high);
   half_mm_ = 0.5 * (high - low);
+  double across = 0.0, squares = 0.0;
+  for (const SectionModel& section : sections) {
+    const double from_middle = *section.z_mm() - middle_mm_;
+    across += from_middle * section.radius_mm();
+    squares += from_middle * from_middle;
+  }
+  taper_ = across / squares;
   const auto profiles = profiles_of(sections);
   start_ = least_squares_line(centres(circles(profiles)));
   if (sections.size() > 2) generatrices_.emplace(sections, start_);
@@ -125,7 +132,7 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections,
     const Rows now = about(start_, profiles, of_cone);
     base_ = now.y;
     for (const Criterion criterion : criteria) {
-      if (of_cone && (sections.size() < 3 || criterion > Criterion::minimum_zone)) continue;
+      if (of_cone && criterion > Criterion::minimum_zone) continue;
       const auto [at, made] =
           near_.try_emplace({criterion, of_cone}, Exchange(now.rows, criterion));
       if (!made) continue;
@@ -150,6 +157,13 @@ std::vector<CentrePoint> WholeModel::centres(const std::vector<Eigen::VectorXd>&
   for (std::size_t s = 0; s < sections_.size(); ++s)
     out.push_back({sections_[s].x_mm() + circles[s][1], sections_[s].y_mm() + circles[s][2],
                    *sections_[s].z_mm()});
+  // Eq. 273a: a section across the spindle of a cone that leans is beside the cone's axis.
+  const AxisLine leans = least_squares_line(out);
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    const double beside = taper_ * sections_[s].radius_mm() / (1.0 + taper_ * taper_);
+    out[s].x_mm -= beside * leans.l;
+    out[s].y_mm -= beside * leans.m;
+  }
   return out;
 }
 
@@ -283,7 +297,7 @@ std::string WholeModel::rocking(Criterion criterion) const {
 
 AxisLine WholeModel::axis_near(const std::vector<std::vector<double>>& filtered_mm,
                                Criterion criterion) const {
-  return fitted_near(y_near(filtered_mm), criterion, false).axis;
+  return fitted_near(y_near(filtered_mm), criterion, has_cone(criterion)).axis;
 }
 
 std::vector<NamedValue> WholeModel::measured() const {
@@ -339,14 +353,20 @@ std::vector<NamedValue> WholeModel::values_of(
 std::vector<NamedValue> WholeModel::against(
     const AxisLine& datum, const std::vector<std::vector<double>>& filtered_mm) const {
   std::vector<NamedValue> values;
-  std::vector<double> distances;
-  each_off(datum, filtered_mm,
-           [&](double distance, double, double, double) { distances.push_back(distance); });
+  std::vector<double> distances, along_mm;
+  each_off(datum, filtered_mm, [&](double distance, double, double, double t) {
+    distances.push_back(distance);
+    along_mm.push_back(middle_mm_ + half_mm_ * t);
+  });
+  const double total = range_of(distances).length();
   double circular = 0.0;
   const auto middles = centres(circles(filtered_mm));
   std::size_t row = 0;
   for (std::size_t s = 0; s < sections_.size(); ++s) {
-    const std::span<const double> section(distances.data() + row, filtered_mm[s].size());
+    const std::span<double> section(distances.data() + row, filtered_mm[s].size());
+    // In the plane at right angles to the datum.
+    for (std::size_t i = 0; i < section.size(); ++i)
+      section[i] -= taper_ * (along_mm[row + i] - *sections_[s].z_mm());
     circular = std::max(circular, range_of(section).length());
     row += filtered_mm[s].size();
   }
@@ -354,7 +374,7 @@ std::vector<NamedValue> WholeModel::against(
     values.push_back({"datum", name, "", value});
   };
   add("runout_circular", circular);
-  add("runout_total", range_of(distances).length());
+  add("runout_total", total);
   add("coaxiality", coaxiality_mm(middles, datum));
   add("parallelism", smallest_parallel_cylinder_mm(middles, datum));
   return values;

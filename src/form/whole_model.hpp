@@ -49,8 +49,11 @@ class WholeModel {
   WholeModel(const std::vector<SectionModel>& sections, std::span<const Criterion> criteria,
              bool in_space);
 
-  /// The axis of the cylinder by a criterion, for the measured profiles and for some near these.
-  AxisLine axis(Criterion criterion) const { return measured_.at({criterion, false}).axis; }
+  /// The axis by a criterion, for the measured profiles and for some near these: by least squares
+  /// of the cone, which a cylinder is as well; else of the cylinder.
+  AxisLine axis(Criterion criterion) const {
+    return measured_.at({criterion, has_cone(criterion)}).axis;
+  }
   AxisLine axis_near(const std::vector<std::vector<double>>& filtered_mm,
                      Criterion criterion) const;
 
@@ -75,6 +78,7 @@ class WholeModel {
     double held_mm = 0.0;  ///< along the axis, from the first to the last contact
   };
   using Fits = std::map<std::pair<Criterion, bool>, Fitted>;  ///< of a cylinder, of a cone: true
+  static bool has_cone(Criterion criterion) { return criterion == Criterion::gaussian; }
   Fitted fitted_near(const std::vector<double>& y, Criterion criterion, bool cone) const;
   Fitted cylinder(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion) const;
   Fitted cone(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion) const;
@@ -84,6 +88,7 @@ class WholeModel {
                                     const std::vector<std::vector<double>>& filtered_mm) const;
   /// The least-squares circle of every section: radius and centre less those of the section.
   std::vector<Eigen::VectorXd> circles(const std::vector<std::vector<double>>& filtered_mm) const;
+  /// Centres of sections at right angles to the axis, by Eq. 273a.
   std::vector<CentrePoint> centres(const std::vector<Eigen::VectorXd>& circles) const;
   struct Rows {
     Exchange::Rows rows;
@@ -102,6 +107,7 @@ class WholeModel {
   const std::vector<SectionModel>& sections_;
   std::vector<std::vector<std::array<double, 2>>> towards_;  ///< cos, sin of a section's angles
   double middle_mm_ = 0.0, half_mm_ = 1.0, mean_radius_mm_ = 0.0;
+  double taper_ = 0.0;  ///< of the radius, along Z
   AxisLine start_;
   std::vector<double> base_;  ///< y of `about(start_)` of the measured profiles
   std::vector<Exchange> circle_fits_;

@@ -7,6 +7,7 @@
 
 #include "support/form_profiles.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/surface.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -95,6 +96,32 @@ TEST(FormWhole, AgainstADatum) {
   EXPECT_NEAR(of(result, "datum", "coaxiality"), 0.0, 2e-6);
   EXPECT_NEAR(of(result, "datum", "parallelism"), 0.0, 2e-6);
   EXPECT_NEAR(of(assess_form(part, quick()), "datum", "coaxiality"), 2.0 * 0.03, rounding_mm);
+}
+
+// A cone leans: the centres of its sections across the spindle are τ R l off its axis (3.2 µm
+// here). Neither coaxiality nor run-out depends on how it is clamped. What remains is of the second
+// order, l² R and τ² l times the eccentricity. The datum is about the same axis, a cone or a
+// cylinder.
+TEST(FormWhole, AConeThatLeansIsAboutItsAxis) {
+  const double l = 4e-4, m = -3e-4, e = 0.03, second_order_mm = (l * l + m * m) * 30.0;
+  const auto leaning = [&](double taper, const std::vector<double>& z_mm) {
+    const Revolved shape{{e, 0.0, l, m, 0.0}, 30.0, taper};
+    return part_stream([=](double c, double z) { return intersect(shape, c, z).x_mm; }, 360, z_mm);
+  };
+  for (const double taper : {0.2, -0.2}) {
+    const ProbeStream part = leaning(taper, five_z);
+    const double end_mm = std::hypot(e + 20.0 * l, -20.0 * m);
+    EXPECT_NEAR(of(assess_form(part, quick()), "datum", "coaxiality"), 2.0 * end_mm,
+                second_order_mm);
+    for (const double of_datum : {0.0, 0.15, -0.3})
+      for (const std::vector<double>& z_mm : {std::vector{40.0, 60.0}, {40.0, 47.0, 60.0}}) {
+        const ProbeStream datum = leaning(of_datum, z_mm);
+        const FormResult result = assess_form(part, quick(), &datum);
+        for (const char* value : {"coaxiality", "parallelism", "runout_circular"})
+          EXPECT_NEAR(of(result, "datum", value), 0.0, 2.0 * second_order_mm)
+              << value << ", tapers " << taper << " and " << of_datum;
+      }
+  }
 }
 
 // A helix of 0.5 mm a turn on a tilted cone: the turns are as round as the cone.
