@@ -91,6 +91,24 @@ Part part_of(const ProbeStream& stream, const FormOptions& options) {
   return out;
 }
 
+/// How the axis of a datum leans.
+Lean lean_of(const ProbeStream& datum, const FormOptions& options) {
+  const Part part = part_of(datum, options);
+  const std::vector<SectionModel>& sections = part.model.sections;
+  if (sections.size() < 2 || !part.sections.radius_known)
+    throw InputError(datum.source,
+                     "does not show the direction of an axis, which axial run-out is about: probe "
+                     "the datum along Z, and state the radius of a gauge");
+  const Criterion criteria[] = {Criterion::gaussian, options.datum};
+  const WholeModel whole(sections, criteria, options.all_references);
+  const auto spread = spreads(part.model, {}, options, [&](const Profiles& near) {
+    const AxisLine axis = whole.axis_near(near.part_mm, options.datum);
+    return std::vector<NamedValue>{{"", "l", "", axis.l}, {"", "m", "", axis.m}};
+  });
+  const AxisLine axis = whole.axis(options.datum);
+  return {{axis.l, axis.m}, {spread[0].u, spread[1].u}};
+}
+
 /// One section against an axis: its run-out and concentricity.
 std::vector<NamedValue> section_against(const AxisLine& datum, const SectionModel& section,
                                         std::span<const double> filtered_mm) {
@@ -278,14 +296,18 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   expect_feature(stream, options.bore);
   if (!(options.ball_radius_mm > 0.0)) options.ball_radius_mm = stream.ball_radius_mm.value_or(0.0);
   if (!options.noise_mm) options.noise_mm = stream.sensor_noise_mm;
+  if (datum) {
+    result.datum_source = datum->source;
+    if (datum->kind == StreamKind::face)
+      throw InputError(datum->source, "is a face: give the readings of a shaft or a bore as datum");
+  }
   if (stream.kind == StreamKind::face) {
-    assess_face(stream, taken_off, result);
+    assess_face(stream, datum ? lean_of(*datum, options) : Lean{}, taken_off, result);
     return result;
   }
   Part part = part_of(stream, options);
   Part of_datum;
   if (datum) {
-    result.datum_source = datum->source;
     FormOptions other = options;
     ++other.seed;  // its draws are its own
     of_datum = part_of(*datum, other);

@@ -185,17 +185,27 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
                   noise_mm / mm_per_um));
 }
 
-void assess_face(const ProbeStream& stream, std::span<const TakenOff> taken_off,
+void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const TakenOff> taken_off,
                  FormResult& result) {
   expect_face(stream);
   std::vector<std::array<double, 2>> at;
-  for (std::size_t i = 0; i < stream.size(); ++i)
+  std::vector<double> height_mm = stream.reading_mm;  // along the axis
+  std::vector<std::vector<double>> columns_mm(2);
+  for (std::size_t i = 0; i < stream.size(); ++i) {
     at.push_back({stream.position_mm[i] * std::cos(stream.c_rad[i]),
                   stream.position_mm[i] * std::sin(stream.c_rad[i])});
+    for (std::size_t k = 0; k < 2; ++k) {
+      height_mm[i] += datum.slope[k] * at[i][k];
+      columns_mm[k].push_back(datum.u[k] * at[i][k]);
+    }
+  }
+  constexpr double independent[] = {1.0, 0.0, 0.0, 1.0};
+  std::vector<TakenOff> uncertain(taken_off.begin(), taken_off.end());
+  uncertain.push_back({columns_mm, independent});
   const auto rings = rings_of(stream);
   assess_heights(
-      at, true, stream.reading_mm,
-      [&](std::span<const double> heights) { return axial_run_out(rings, heights); }, taken_off,
+      at, true, height_mm,
+      [&](std::span<const double> heights) { return axial_run_out(rings, heights); }, uncertain,
       result);
 }
 

@@ -45,8 +45,14 @@ std::vector<Spread> spreads_of_heights(std::span<const double> height_mm,
                                        std::span<const double> off_mm, double noise_mm,
                                        const FormOptions& options, const AssessHeights& assess);
 
-/// Flatness, and axial run-out about the spindle axis, of a face stream (Z_M, C, X).
-void assess_face(const ProbeStream& stream, std::span<const TakenOff> taken_off,
+/// How the axis leans that axial run-out is about: slopes along x and y, and u of each. That of the
+/// spindle does not.
+struct Lean {
+  std::array<double, 2> slope{}, u{};
+};
+
+/// Flatness, and axial run-out about an axis, of a face stream (Z_M, C, X).
+void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const TakenOff> taken_off,
                  FormResult& result);
 
 /// Flatness or straightness of heights, with U, as a group of the result.

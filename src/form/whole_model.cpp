@@ -157,7 +157,7 @@ std::vector<CentrePoint> WholeModel::centres(const std::vector<Eigen::VectorXd>&
   for (std::size_t s = 0; s < sections_.size(); ++s)
     out.push_back({sections_[s].x_mm() + circles[s][1], sections_[s].y_mm() + circles[s][2],
                    *sections_[s].z_mm()});
-  // Eq. 273a: a section across the spindle of a cone that leans is beside the cone's axis.
+  // Eq. 273a: the centres of a cone that leans, read across the spindle, are off its axis.
   const AxisLine leans = least_squares_line(out);
   for (std::size_t s = 0; s < sections_.size(); ++s) {
     const double beside = taper_ * sections_[s].radius_mm() / (1.0 + taper_ * taper_);

@@ -3,6 +3,8 @@
 // follow from how they are made.
 #include <gtest/gtest.h>
 
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 
 #include "support/form_profiles.hpp"
@@ -188,6 +190,36 @@ TEST(FormWhole, Faces) {
       assess_form(face([&](double t) { return l * 30.0 * std::cos(t); }), quick());
   EXPECT_NEAR(of(tilted, "flatness", "FLTt", "MZPL"), 0.0, rounding_mm);
   EXPECT_NEAR(of(tilted, "datum", "axial_runout_circular"), 2.0 * l * 30.0, rounding_mm);
+}
+
+// A face and a shaft that lean differently, by 1e-4: the face runs out 2 X 1e-4 about the shaft.
+// The slope of its axis has u = σ √(2/Σz²), which counts 2 X times; 400 trials give u to 4 %.
+TEST(FormWhole, AFaceIsAboutTheAxisOfItsDatum) {
+  const double l = 5e-4, more = 1e-4, x_mm = 30.0, sigma_mm = 1e-3;
+  ProbeStream face;
+  face.kind = StreamKind::face;
+  for (int i = 0; i < 360; ++i) {
+    face.c_rad.push_back(i * rad_per_deg);
+    face.position_mm.push_back(x_mm);
+    face.reading_mm.push_back(-(l + more) * x_mm * std::cos(i * rad_per_deg));
+  }
+  ProbeStream datum = part_stream(
+      [&](double t, double z) { return eccentric(15.0, 0.01 + l * z, t); }, 360, five_z);
+  const FormResult exact = assess_form(face, quick(), &datum);
+  EXPECT_NEAR(of(exact, "datum", "axial_runout_circular"), 2.0 * x_mm * more, 1e-7);
+  EXPECT_EQ(exact.datum_source, "part");
+  boost::random::mt19937_64 engine(1);
+  boost::random::normal_distribution<double> noise(0.0, sigma_mm);
+  for (double& r : datum.reading_mm) r += noise(engine);
+  FormOptions options = quick();
+  options.trials = 400;
+  const FormResult noisy = assess_form(face, options, &datum);
+  const double sum_of_z2 = 360.0 * 2.0 * (20.0 * 20.0 + 10.0 * 10.0);
+  const double u_slope = sigma_mm * std::sqrt(2.0 / sum_of_z2);
+  const FormValue& value = value_of(group_of(noisy, "datum"), "axial_runout_circular");
+  EXPECT_NEAR(value.estimate.u, 2.0 * x_mm * u_slope, 0.2 * 2.0 * x_mm * u_slope);
+  EXPECT_NEAR(value.estimate.value, 2.0 * x_mm * more, 3.0 * value.estimate.u);
+  EXPECT_THROW(assess_form(datum, quick(), &face), InputError);
 }
 
 }  // namespace
