@@ -101,5 +101,12 @@ TEST(CoaxialityDistribution, IsTheSameEveryTime) {
   EXPECT_EQ(quantile(r, {}, 0.95, 0.0, 30.0), quantile(r, {}, 0.95, 0.0, 30.0));
 }
 
+// Beyond the last of 2¹⁴ points there is nothing to interpolate.
+TEST(CoaxialityDistribution, EndsAtItsLargestDraw) {
+  const Reference r = seat(1e-3, 5e-4);
+  EXPECT_EQ(quantile(r, {}, 1.0), quantile(r, {}, 1.0 - 1e-6));
+  EXPECT_EQ(quantile(r, {}, 0.0), quantile(r, {}, 1e-6));
+}
+
 }  // namespace
 }  // namespace trueaxis

@@ -108,5 +108,23 @@ TEST(SizePrior, WhatIsBeyondAnySizeIsNotPossible) {
   EXPECT_LT(found(0.0, 10.0).covariance(0, 0), 0.2 * 0.2);
 }
 
+// What σ is known by: the readings less what is fitted beside the column. Of 12 readings it tells.
+TEST(SizePrior, CountsTheFreedomThatIsLeft) {
+  Eigen::MatrixXd table(12, 4);
+  for (Eigen::Index i = 0; i < table.rows(); ++i) {
+    const auto x = static_cast<double>(i);
+    table.row(i) << 0.3 * std::cos(2.0 * x) + std::sin(0.7 * x * x), 1.0, x, std::cos(2.0 * x);
+  }
+  const Eigen::MatrixXd gram = table.transpose() * table;
+  const infer::Columns readings{0}, own{3};
+  const infer::Projection beside(gram, {1, 2});
+  const SizePrior prior{Eigen::VectorXd::Constant(1, 0.5), 1.0};
+  const Weighed counted = infer::weigh(prior, beside, own, 12);
+  const Weighed stated = weigh(prior, beside.gram(own, own), beside.gram(own, readings),
+                               Eigen::VectorXd::Constant(1, gram(3, 3)), beside.rss, 12.0 - 2.0);
+  EXPECT_EQ(counted.criterion, stated.criterion);
+  EXPECT_EQ(counted.mean(0), stated.mean(0));
+}
+
 }  // namespace
 }  // namespace trueaxis::diagnose_detail
