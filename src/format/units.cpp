@@ -2,6 +2,7 @@
 #include "format/units.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/number.hpp"
@@ -111,10 +112,10 @@ std::optional<NumberWithUnit> number_with_unit(std::string_view text) {
 std::optional<double> quantity_in(std::string_view text, UnitKind kind) {
   const auto number = number_with_unit(text);
   if (!number) return {};
-  if (kind == UnitKind::count)
-    return number->unit.empty() ? std::optional(number->value) : std::nullopt;
   const auto unit = find_unit(kind, number->unit);
-  return unit ? std::optional(number->value * unit->factor) : std::nullopt;
+  if (kind == UnitKind::count ? !number->unit.empty() : !unit) return {};
+  const double value = kind == UnitKind::count ? number->value : number->value * unit->factor;
+  return std::abs(value) <= most_stated ? std::optional(value) : std::nullopt;
 }
 
 NameWithUnit name_with_unit(std::string_view text) {

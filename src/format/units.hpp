@@ -38,7 +38,11 @@ struct NumberWithUnit {
 };
 std::optional<NumberWithUnit> number_with_unit(std::string_view text);
 
-/// The same of a quantity inside (mm, rad); nothing without a unit of it.
+/// The largest number that is stated of readings, in the unit inside: beyond a kilometre or a
+/// million radians its square is no quantity any more.
+inline constexpr double most_stated = 1e6;
+
+/// The same of a quantity inside (mm, rad), up to `most_stated`; nothing without a unit of it.
 std::optional<double> quantity_in(std::string_view text, UnitKind kind);
 
 /// "X [mm]" cut apart; all of it is the name if no unit is in brackets at its end.

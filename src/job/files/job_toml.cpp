@@ -11,6 +11,7 @@
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
+#include "format/units.hpp"
 #include "job/files/influences_toml.hpp"
 #include "job/files/job_toml_parts.hpp"
 #include "surface/surface.hpp"
@@ -29,8 +30,9 @@ struct Sensor {
 
 Sensor read_sensor(TomlTable table) {
   Sensor sensor;
-  sensor.ball_radius_mm = table.number("ball_radius_mm", 0.0, Range::non_negative());
-  sensor.noise_mm = table.maybe_number("noise_mm", Range::non_negative());
+  const Range stated = Range::between(0.0, most_stated);
+  sensor.ball_radius_mm = table.number("ball_radius_mm", 0.0, stated);
+  sensor.noise_mm = table.maybe_number("noise_mm", stated);
   sensor.influences = read_influences(table);
   return sensor;
 }
