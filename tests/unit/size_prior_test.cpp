@@ -108,7 +108,7 @@ TEST(SizePrior, WhatIsBeyondAnySizeIsNotPossible) {
   EXPECT_LT(found(0.0, 10.0).covariance(0, 0), 0.2 * 0.2);
 }
 
-// What σ is known by: the readings less what is fitted beside the column. Of 12 readings it tells.
+// What σ is known by: the readings less what is fitted next to the column. Of 12 readings it tells.
 TEST(SizePrior, CountsTheFreedomThatIsLeft) {
   Eigen::MatrixXd table(12, 4);
   for (Eigen::Index i = 0; i < table.rows(); ++i) {
