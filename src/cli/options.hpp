@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "format/units.hpp"
-
 /// Options and checks that several commands share.
 namespace trueaxis::cli {
 
@@ -43,11 +41,9 @@ inline CLI::Validator more_than_0() {
           "", "number"};
 }
 
-inline CLI::Validator a_length() {
-  return number_in(0.0, false, most_stated, "a length of 0 to 1e6");
-}
+inline CLI::Validator a_length() { return number_in(0.0, false, 1e6, "a length of 0 to 1e6"); }
 inline CLI::Validator positive_length() {
-  return number_in(0.0, true, most_stated, "a length above 0, up to 1e6");
+  return number_in(0.0, true, 1e6, "a length above 0, up to 1e6");
 }
 
 /// An option whose value is checked.

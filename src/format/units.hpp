@@ -38,9 +38,9 @@ struct NumberWithUnit {
 };
 std::optional<NumberWithUnit> number_with_unit(std::string_view text);
 
-/// The largest number that is stated of readings, in the unit inside: beyond a kilometre or a
-/// million radians its square is no quantity any more.
-inline constexpr double most_stated = 1e6;
+/// The largest number that is stated of readings, in the unit inside. Beyond it a double does not
+/// hold a tenth of a unit, and later not even the square of the number.
+inline constexpr double most_stated = 1e15;
 
 /// The same of a quantity inside (mm, rad), up to `most_stated`; nothing without a unit of it.
 std::optional<double> quantity_in(std::string_view text, UnitKind kind);
