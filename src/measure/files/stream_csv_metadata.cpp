@@ -55,8 +55,10 @@ std::string unit_trouble(std::string_view value) {
   const auto said = number_with_unit(value);
   const auto unit = find_unit(UnitKind::angle, said->unit);
   const double size = std::abs(said->value);
-  if (unit->turn != 360.0 && size > most_turns * unit->turn)
-    return " is more than three turns, which looks like degrees: write deg";
+  if (size > most_turns * unit->turn)
+    return unit->turn != 360.0
+               ? " is more than three turns, which looks like degrees: write deg"
+               : " is more than three turns: write it without the whole turns";
   if (unit->turn == 360.0 && size > rounded && size < two_pi + rounded &&
       std::abs(std::remainder(size, 0.25 * two_pi)) < rounded)
     return " is quarters of a turn in radians: write rad. If degrees are meant, write them in rev";
