@@ -56,9 +56,8 @@ std::string unit_trouble(std::string_view value) {
   const auto unit = find_unit(UnitKind::angle, said->unit);
   const double size = std::abs(said->value);
   if (size > most_turns * unit->turn)
-    return unit->turn != 360.0
-               ? " is more than three turns, which looks like degrees: write deg"
-               : " is more than three turns: write it without the whole turns";
+    return unit->turn != 360.0 ? " is more than three turns, which looks like degrees: write deg"
+                               : " is more than three turns: write it without the whole turns";
   if (unit->turn == 360.0 && size > rounded && size < two_pi + rounded &&
       std::abs(std::remainder(size, 0.25 * two_pi)) < rounded)
     return " is quarters of a turn in radians: write rad. If degrees are meant, write them in rev";
