@@ -149,7 +149,9 @@ class Writer {
         out_.text += '0';
         copied_ = word.end;
       } else if (axis < axis_count && has(move.named, axis)) {
-        replace_number(word, new_number(move, axis, position.words[axis], options_), axis);
+        NewNumber now = new_number(move, axis, position.words[axis], options_);
+        now.stays = now.stays && !move.modal.incremental;  // its text is a distance under G91
+        replace_number(word, now, axis);
       } else {
         copy_to(word.end);
       }

@@ -69,6 +69,27 @@ TEST_F(DrillingCycles, StayWithoutErrors) {
   EXPECT_EQ(read_text(folder_ / "out.nc"), holes);
 }
 
+// Y alone is corrected: the word X of a hole under G91, a distance, stayed where G90 was written
+// before it, and the hole was the rest of X off.
+TEST_F(DrillingCycles, ADistanceOfAnAxisThatNoErrorMovesBecomesItsPosition) {
+  const std::string row = "G21 G90 G94 G54\nG0 X10 Y2 Z5 B0 C0\nG91 G81 X5 Y3 Z-6 R-3 F100 K2\n";
+  file("m.toml", bc_trunnion);
+  file("e.toml",
+       "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n"
+       "[[error]]\nname = \"Y0S\"\nvalue_um = 20\n");
+  file("p.nc", row);
+  ASSERT_EQ(command("machine compensate p.nc --machine m.toml --errors e.toml -o out.nc").exit_code,
+            0);
+  const std::string out = read_text(folder_ / "out.nc");
+  const PlainControl was(row), is(out);
+  ASSERT_EQ(is.moves.size(), was.moves.size()) << out;
+  for (std::size_t i = 0; i < was.moves.size(); ++i) {
+    EXPECT_NEAR(is.moves[i].to[0], was.moves[i].to[0], 1e-9) << out;
+    EXPECT_NEAR(is.moves[i].to[1], was.moves[i].to[1] - 0.02, 1e-9) << out;
+    EXPECT_NEAR(is.moves[i].to[2], was.moves[i].to[2], 1e-9) << out;
+  }
+}
+
 TEST_F(DrillingCycles, InInchToo) {
   const std::string inch =
       "G20 G90 G94 G54\nG0 X0 Y0 Z4 B30 C45\nG81 X.5 Y.5 Z-.4 R.1 F8\nX1.\nG80\nG21\nG0 X30\n";
