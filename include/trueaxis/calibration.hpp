@@ -97,6 +97,9 @@ struct CalibrationOptions {
   double largest_angle_rad = 0.2e-3;
   double coverage_factor = 2.0;  ///< k of U = k u in the result
   int max_orders = 24;           ///< of a period in an axis' read-out
+  /// The covariance of `errors` counts the location errors that are held, too: they are as large as
+  /// machines have them (Eq. 330). Parameters and their u presuppose what is held either way.
+  bool counts_held = false;
 };
 
 enum class NoiseBasis { none, stated, residuals };
@@ -138,6 +141,10 @@ Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement
 /// Why a calibration cannot be right: a size that, less 2 u, is fifty times the largest plausible
 /// one, as of inches for mm or a wrong tool length. Empty: nothing speaks against it.
 std::string implausible(const Calibration& found, const CalibrationOptions& options);
+
+/// The location error that, less 2 u, is furthest beyond the largest plausible length: a tool
+/// length or a point of the machine file that is wrong by as much reads the same. Empty: none.
+std::string beyond_plausible(const Calibration& found, const CalibrationOptions& options);
 
 /// The mistake in the columns that a measurement most likely has, and what to write: exchanged
 /// columns, wrong signs or radians as degrees, if the right ones leave half of the RMS at most.

@@ -60,6 +60,8 @@ int execute(const CalibrateArguments& options) {
     std::cerr << options.data.front() << ": not converged: " << found.message << '\n';
     return numerical;
   }
+  if (std::string beyond = beyond_plausible(found, calibration); !beyond.empty())
+    given.remarks.push_back(std::move(beyond));
   results.write(outputs, "--output", [&] { return errors_toml(found.errors, &file.machine); });
   results.write(outputs, "--json",
                 [&] { return calibration_json(found, file.machine, given.remarks); });

@@ -18,17 +18,18 @@ constexpr double sigma_mm = 1e-3;
 constexpr double hidden_cos_mm = 9e-3, hidden_sin_mm = -6e-3;
 
 /// A program that touches points of a part 80 mm wide at many tilts, a block each.
-std::string touching_program(const BallBench& nominal, Draw& draw) {
+std::string touching_program(const BallBench& nominal, Draw& draw, std::size_t tilt = 3) {
   std::string text = "G21 G90 G94\n";
   for (int i = 0; i < 60; ++i) {
     AxisPositions q{};
-    q[3] = draw.between(-85.0, 25.0) * rad_per_deg, q[5] = draw.between(5.0, 310.0) * rad_per_deg;
+    q[tilt] = draw.between(-85.0, 25.0) * rad_per_deg,
+    q[5] = draw.between(5.0, 310.0) * rad_per_deg;
     const Vector3 point{draw.between(-40.0, 60.0), draw.between(-20.0, 70.0),
                         draw.between(30.0, 90.0)};
     nominal.follow(q, point, 120.0);
     char block[160];
-    std::snprintf(block, sizeof block, "G1 X%.4f Y%.4f Z%.4f A%.5f C%.5f F500\n", q[0], q[1], q[2],
-                  q[3] / rad_per_deg, q[5] / rad_per_deg);
+    std::snprintf(block, sizeof block, "G1 X%.4f Y%.4f Z%.4f %c%.5f C%.5f F500\n", q[0], q[1], q[2],
+                  "XYZABC"[tilt], q[tilt] / rad_per_deg, q[5] / rad_per_deg);
     text += block;
   }
   return text;
@@ -98,6 +99,76 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   EXPECT_GT(mean, 0.5);
   EXPECT_LT(mean, 1.5);
   EXPECT_LT(most, 5.0);
+}
+
+// One ball and one tool do not tell some location errors of a head from others and the ball's
+// place, but only at the ball's own place: elsewhere in the part they moved the tip by up to
+// 13 u. Their sizes are those of Eq. 330, so that E|δ'|² ≤ u²; in two directions or more
+// a machine the mean of |δ'|²/u² has a relative standard deviation of sqrt(2/(40 · 2)) = 0.16. The
+// bounds are five of these. A tip is beyond 5 u once in a million.
+TEST(MachineJobLaw, TheUncertaintyCountsWhatOneBallDoesNotTell) {
+  constexpr std::uint64_t seed = 20261128;
+  Draw draw(seed);
+  std::printf("seed %ju\n", static_cast<std::uintmax_t>(seed));
+  const Machine machine = head_and_table();
+  const ErrorModel none;
+  BallPlan plan;
+  plan.balls = {{60.0, 20.0, 30.0}}, plan.tool_lengths_mm = {120.0}, plan.tilt = 4;
+  double sum = 0.0, most = 0.0;
+  std::size_t tips = 0;
+  for (int machine_number = 0; machine_number < 40; ++machine_number) {
+    const ErrorModel truth = drawn_location_errors(machine, draw);
+    MachineJob job;
+    job.machine = machine;
+    job.data = {measure_balls({machine, truth}, plan, sigma_mm, draw)};
+    job.program = MachineJobProgram{"touch.nc", touching_program({machine, none}, draw, 4), {}};
+    job.program->options.decimals = 6, job.program->options.angle_decimals = 8;
+    const MachineJobResult result = run_machine_job(std::move(job));
+    const Truth real = truth_of(result, truth);
+    const auto after = without_rigid_body(real.wanted, real.after);
+    ASSERT_EQ(result.tips.size(), after.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      const double share = after[i].norm() / result.tips[i].u_mm;
+      sum += share * share;
+      most = std::max(most, share);
+      ++tips;
+    }
+  }
+  const double mean = sum / static_cast<double>(tips);
+  std::printf("mean |d|^2/u^2 %.3f, largest |d|/u %.2f of %zu tips\n", mean, most, tips);
+  EXPECT_GT(mean, 0.2);
+  EXPECT_LT(mean, 1.8);
+  EXPECT_LT(most, 5.0);
+}
+
+// A probe whose length is stated 1 mm wrong on every row fits as well as the right one: the lines
+// of the rotary axes are 1 mm off instead, fifty times what drawn errors have, and the new program
+// is off by as much. The job says so; with the right length it does not.
+TEST(MachineJobLaw, AWrongLengthOfTheProbeIsAReservation) {
+  Draw draw(20261129);
+  const ErrorModel none;
+  for (const auto& [machine, tilt] : {std::pair(trunnion(), 3), std::pair(head_and_table(), 4)}) {
+    BallPlan plan;
+    plan.tilt = static_cast<std::size_t>(tilt);
+    const ErrorModel truth = drawn_location_errors(machine, draw);
+    MachineJob job;
+    job.machine = machine;
+    job.data = {measure_balls({machine, truth}, plan, sigma_mm, draw)};
+    job.program =
+        MachineJobProgram{"touch.nc", touching_program({machine, none}, draw, plan.tilt), {}};
+    job.tolerance_mm = 0.05;
+    const auto asks = [](const MachineJobResult& result) {
+      return std::ranges::any_of(result.verdict.reservations, [](const Reason& reason) {
+        return reason.code == ReasonCode::check_found &&
+               std::ranges::any_of(reason.names, [](const auto& name) {
+                 return name.value.find("tool length") != std::string::npos;
+               });
+      });
+    };
+    EXPECT_FALSE(asks(run_machine_job(job))) << machine.chain;
+    for (double& length : job.data.front().tool_length_mm) length += 1.0;
+    EXPECT_TRUE(asks(run_machine_job(job))) << machine.chain;
+  }
 }
 
 // Together with a reversal, which is not a function of a position, U counted the noise alone,

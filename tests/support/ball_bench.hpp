@@ -26,6 +26,19 @@ inline Machine trunnion() {
   return machine;
 }
 
+/// A head B over a table C: one ball and one tool leave more open on it than on a trunnion.
+inline Machine head_and_table() {
+  Machine machine;
+  std::vector<ChainTrouble> none;
+  machine.chain = "w C' Y' b X Z B t";
+  machine.axes = parse_chain(machine.chain, none);
+  for (MachineAxis& axis : machine.axes)
+    if (axis.name == AxisName::B) axis.point_mm = {0.0, 0.0, 350.0};
+  machine.tool.gauge_point_mm = {0.0, 0.0, 250.0};
+  machine.tool.length_mm = 120.0;
+  return machine;
+}
+
 /// Location errors of the size that machines have: 20 µm, 50 µrad.
 inline ErrorModel drawn_location_errors(const Machine& machine, Draw& draw) {
   ErrorModel errors;
@@ -103,7 +116,8 @@ struct BallPlan {
   std::vector<double> a_deg{-90, -60, -30, 0, 30}, c_deg{0, 45, 90, 135, 180, 225, 270, 315};
   std::vector<Vector3> balls{{120.0, 20.0, 40.0}, {-60.0, 90.0, 90.0}};
   std::vector<double> tool_lengths_mm{120.0, 190.0};
-  double off_mm = 0.3;  ///< linear axes this far off the ball, drawn; 0 follows it
+  std::size_t tilt = 3;  ///< the axis of a_deg
+  double off_mm = 0.3;   ///< linear axes this far off the ball, drawn; 0 follows it
 };
 
 /// Deviations at every position of a plan, with white noise.
@@ -121,7 +135,7 @@ inline MachineMeasurement measure_balls(const BallBench& bench, const BallPlan& 
       for (const double a : plan.a_deg)
         for (const double c : plan.c_deg) {
           AxisPositions q{};
-          q[3] = a * rad_per_deg, q[5] = c * rad_per_deg;
+          q[plan.tilt] = a * rad_per_deg, q[5] = c * rad_per_deg;
           nominal.follow(q, plan.balls[b], length);
           for (std::size_t i = 0; i < 3; ++i) q[i] += draw.between(-plan.off_mm, plan.off_mm);
           Vector3 d = bench.deviation(q, plan.balls[b], length);

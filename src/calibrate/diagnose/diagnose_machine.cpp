@@ -267,7 +267,7 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   out.effective_hypotheses = found.dictionary->independent_tests();
   out.typical_length_mm = options.typical_length_mm;
   out.typical_angle_rad = options.typical_angle_rad;
-  add_checks(*fit, *found.dictionary, found.found, timed, out);
+  add_checks(*fit, *found.dictionary, found.found, timed, options.calibration, out);
   add_remarks(out);
   out.verdict = verdict_of(!out.findings.empty(), !out.unexplained.empty());
   advise({*fit, data, options, found.options, found.dictionary->variance(found.found), found.found},

@@ -130,7 +130,7 @@ std::vector<std::array<std::string, 2>> pairs_like(const infer::Dictionary& dict
 }
 
 void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Set& found,
-                bool timed, MachineDiagnosis& out) {
+                bool timed, const CalibrationOptions& options, MachineDiagnosis& out) {
   const MatrixXd columns = dictionary.columns(found);
   VectorXd left = dictionary.residuals();
   if (columns.cols() > 0) left -= columns * linear::least_squares(columns, left);
@@ -155,6 +155,10 @@ void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Se
   out.checks.push_back({"times", !timed,
                         timed ? "every row has its time"
                               : "the rows have no times: drift and warming up cannot be detected"});
+  const std::string beyond = beyond_plausible(out.baseline, options);
+  out.checks.push_back(
+      {"location", !beyond.empty(),
+       beyond.empty() ? "every location error is as small as machines have them" : beyond});
 }
 
 void add_remarks(MachineDiagnosis& out) {

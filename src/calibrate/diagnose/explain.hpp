@@ -20,7 +20,7 @@ std::vector<std::array<std::string, 2>> pairs_like(const infer::Dictionary& dict
 
 /// The noise against what is stated, the largest residual, the times.
 void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Set& found,
-                bool timed, MachineDiagnosis& out);
+                bool timed, const CalibrationOptions& options, MachineDiagnosis& out);
 
 void add_remarks(MachineDiagnosis& out);
 

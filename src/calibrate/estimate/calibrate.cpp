@@ -231,7 +231,7 @@ Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement
   const auto fit = fit_tips(machine, data, options, true, out);
   if (!fit) summarise_read_outs(out);
   if (!fit || !out.converged) return out;
-  const Eigen::VectorXd places = take_component_errors(*fit, out);
+  const Eigen::VectorXd places = take_component_errors(*fit, options, out);
   out.balls.clear();
   place_balls(fit->problem, places, out);
   out.rms_after_mm = fit->problem.rms_mm(fit->problem.residuals(out.errors, places));

@@ -262,6 +262,11 @@ class Worthwhile {
   std::optional<double> as_read_mm_;
 };
 
+/// Whatever k is printed: a wrong unit stays wrong.
+double least_size(const CalibratedParameter& p) {
+  return std::abs(p.estimate.value) - 2.0 * p.estimate.u;
+}
+
 }  // namespace
 
 std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
@@ -310,19 +315,30 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
 
 std::string implausible(const Calibration& found, const CalibrationOptions& options) {
   constexpr double far_beyond = 50.0;  // largest plausible sizes: 5 mm, 0.6 degrees
-  constexpr double k = 2.0;            // whatever k is printed: a wrong unit stays wrong
   for (const CalibratedParameter& p : found.parameters) {
     const bool angle = p.estimate.unit == "rad";
     const double most =
         far_beyond * (angle ? options.largest_angle_rad : options.largest_length_mm);
-    const double least = std::abs(p.estimate.value) - k * p.estimate.u;
-    if (!(least > most)) continue;
+    if (!(least_size(p) > most)) continue;
     return fmt::format(
         "{} is {:.4g} {}: no machine is so far from its model. Check that the machine file, the "
         "tool length, and the units and signs of the columns belong to the measurement",
         p.name, p.estimate.value * edge_factor(p.estimate.unit), angle ? "deg" : "mm");
   }
   return "";
+}
+
+std::string beyond_plausible(const Calibration& found, const CalibrationOptions& options) {
+  const CalibratedParameter* furthest = nullptr;
+  for (const CalibratedParameter& p : found.parameters)
+    if (p.estimate.unit == "mm" && least_size(p) > options.largest_length_mm &&
+        (furthest == nullptr || least_size(p) > least_size(*furthest)))
+      furthest = &p;
+  if (furthest == nullptr) return "";
+  return fmt::format(
+      "check the tool length and the points in the machine file, as {} is {:.3g} mm (machines have "
+      "{:g} mm at most): a length that is wrong by as much reads the same",
+      furthest->name, furthest->estimate.value, options.largest_length_mm);
 }
 
 }  // namespace trueaxis

@@ -23,6 +23,7 @@ struct PlausibleSizes {
   double linear_angle_rad = 12e-6;  ///< its roll, pitch and yaw
   double rotary_length_mm = 2e-3;   ///< radial and axial motion of a rotary axis
   double rotary_angle_rad = 12e-6;  ///< its tilt and its position
+  double location_length_mm = 20e-3, location_angle_rad = 50e-6;  ///< of location errors
   double factor = 2.0;
 
   double of(bool rotary, bool angular) const {

@@ -61,12 +61,33 @@ std::vector<ErrorName> known_of(const TipFit& fit) {
   return known;
 }
 
+/// Location errors that nobody gave and that the fit held, with the sizes that machines have.
+std::vector<Unknown> held_of(const TipFit& fit) {
+  constexpr PlausibleSizes sizes;
+  std::vector<Unknown> out;
+  for (const Held& held : fit.solution.determined.held) {
+    Unknown one = fit.unknowns[held.unknown];
+    const ErrorName& name = one.unit.name;
+    if (name.component ||
+        std::ranges::find(fit.given.terms, name, &ErrorTerm::name) != fit.given.terms.end() ||
+        std::ranges::find(fit.given.covariance.names(), name, &UncertainAmount::name) !=
+            fit.given.covariance.names().end())
+      continue;
+    one.largest = name.angular() ? sizes.location_angle_rad : sizes.location_length_mm;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 /// Everything that is estimated together: kept unknowns, places, component errors that were given
 /// with their covariance, and those that nobody gave.
 class Together {
  public:
-  Together(const TipFit& fit, const ErrorModel& errors)
-      : fit_(fit), given_(fit), plausible_(plausible_errors(fit.problem, known_of(fit))) {
+  Together(const TipFit& fit, const ErrorModel& errors, const CalibrationOptions& options)
+      : fit_(fit),
+        given_(fit),
+        plausible_(plausible_errors(fit.problem, known_of(fit))),
+        held_(options.counts_held ? held_of(fit) : std::vector<Unknown>()) {
     amounts_ = given_.components;
     for (const PlausibleError& error : plausible_)
       amounts_.insert(amounts_.end(), error.amounts.begin(), error.amounts.end());
@@ -77,6 +98,12 @@ class Together {
     columns.leftCols(known) = linear::product(columns.leftCols(known), given_.root);
     effects_ = regress(fit.solution.residuals, fit.solution.jacobian, columns, groups(),
                        fit.problem.noise_stated);
+    MatrixXd all(columns.rows(), fit.solution.jacobian.cols() + columns.cols());
+    all << fit.solution.jacobian, columns;
+    const MatrixXd of_held = weighted_jacobian(fit.problem, errors, held_, fit.solution.places)
+                                 .leftCols(static_cast<Index>(held_.size()));
+    by_held_ = linear::product(effects_.covariance, linear::transposed_product(all, of_held)) /
+               effects_.variance;
     give_back_units();
   }
 
@@ -120,6 +147,7 @@ class Together {
     mean_ << effects_.fixed, effects_.random;
     mean_ = back * mean_;
     covariance_ = linear::propagated(back, effects_.covariance);
+    by_held_ = back * by_held_;
     for (Index k = 0; k < kept(); ++k)
       mean_[k] += fit_.solution.unknowns[static_cast<Index>(
           fit_.solution.determined.kept[static_cast<std::size_t>(k)])];
@@ -163,9 +191,25 @@ class Together {
       add_amount(components, amounts_[i], mean_[at]);
     }
     errors.terms.insert(errors.terms.end(), components.begin(), components.end());
-    add_covariance(errors.covariance, with_names(std::move(found), covariance_(which, which)));
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      found.push_back(amount_of(held_[i].unit));
+      which.push_back(covariance_.rows() + static_cast<Index>(i));
+    }
+    add_covariance(errors.covariance, with_names(std::move(found), with_held()(which, which)));
     gather_uncertainty(errors);
     out.errors = std::move(errors);
+  }
+
+  /// The covariance of all, and of the held ones after it: an estimate is off by `by_held_` for
+  /// each of them (Eq. 330).
+  MatrixXd with_held() const {
+    const Index n = covariance_.rows(), held = static_cast<Index>(held_.size());
+    MatrixXd root(n + held, held), out = MatrixXd::Zero(n + held, n + held);
+    root.topRows(n) = -by_held_;
+    root.bottomRows(held).setZero();
+    for (Index k = 0; k < held; ++k) root(n + k, k) = held_[static_cast<std::size_t>(k)].largest;
+    out.topLeftCorner(n, n) = covariance_;
+    return out + linear::product_transposed(root, root);
   }
 
   void write_components(Calibration& out) const {
@@ -223,10 +267,12 @@ class Together {
   const TipFit& fit_;
   Given given_;
   std::vector<PlausibleError> plausible_;
+  std::vector<Unknown> held_;
   std::vector<UncertainAmount> amounts_;
   RandomEffects effects_;
   VectorXd mean_;
   MatrixXd covariance_;
+  MatrixXd by_held_;  ///< what a held one of its size does to every estimate
 };
 
 }  // namespace
@@ -281,8 +327,9 @@ void state_covariance(const TipFit& fit, std::span<const FoundColumns> found,
   gather_uncertainty(errors);
 }
 
-VectorXd take_component_errors(const TipFit& fit, Calibration& out) {
-  const Together together(fit, out.errors);
+VectorXd take_component_errors(const TipFit& fit, const CalibrationOptions& options,
+                               Calibration& out) {
+  const Together together(fit, out.errors, options);
   together.write(out);
   return together.places();
 }

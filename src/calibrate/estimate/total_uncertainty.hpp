@@ -9,7 +9,8 @@ namespace trueaxis::calibrate_detail {
 /// Component errors that were not fitted, taken into a calibration (Eqs. 210-215): parameters and
 /// errors become those of the regression in which every component error is random at its plausible
 /// size, u and covariance what is then unknown of them. @returns the places
-VectorXd take_component_errors(const TipFit& fit, Calibration& out);
+VectorXd take_component_errors(const TipFit& fit, const CalibrationOptions& options,
+                               Calibration& out);
 
 /// Columns of something found, and the error of size 1 that each is; none: no error of the machine.
 struct FoundColumns {

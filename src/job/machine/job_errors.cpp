@@ -34,13 +34,16 @@ ErrorCovariance covariance_of(const MachineFinding& found) {
 }  // namespace
 
 ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) {
-  if (!diagnosis.unexplained.empty()) return diagnosis.errors;  // those of a calibration
+  const bool explained = diagnosis.unexplained.empty();
   CalibrationOptions options;
   options.errors = job.known;
-  for (const MachineFinding& found : diagnosis.findings)
-    options.errors.terms.insert(options.errors.terms.end(), found.errors.begin(),
-                                found.errors.end());
+  options.counts_held = true;
+  if (explained)
+    for (const MachineFinding& found : diagnosis.findings)
+      options.errors.terms.insert(options.errors.terms.end(), found.errors.begin(),
+                                  found.errors.end());
   ErrorModel errors = calibrate(job.machine, job.data, options).errors;
+  if (!explained) return errors;
   if (std::ranges::any_of(diagnosis.findings,
                           [](const MachineFinding& found) { return found.errors.empty(); })) {
     // The diagnosis alone fits what is not an error of the machine (reversal, drift, slip); U
