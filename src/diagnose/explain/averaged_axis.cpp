@@ -266,6 +266,7 @@ class Averaging {
     for (; k < beside_.size() && beside_[k].effect == effect; ++k, ++next) {
       if (!effect->stated && score(beside, wide_.places[next]).rank == 0) continue;
       const Weighed weighed = weigh_term(next, beside);
+      if (!effect->stated && !weighed.possible) continue;  // then it is not what the readings show
       out.shapes.push_back(with(next, named_, weighed));
       out.places.push_back(next);
       out.shapes.back().probability =

@@ -78,19 +78,21 @@ bool has_class(const Hypothesis& term, const Problem& problem) {
   return term.effect && !is_rounding(term, problem.point, problem.rounding_mm);
 }
 
-/// For all terms, on threads; empty where a term has none.
-std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const Model& searched,
-                                      const Problem& problem) {
+/// For all terms, on threads; empty where a term has none. About the part without the effects: the
+/// second order of a large one, which its own column lacks about the ideal fit, looks like others.
+std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const RelinearisedFit& fit) {
+  Model model = search.model;
+  model.terms = fit.joint().terms, model.phi = search.phi();
   std::vector<std::size_t> terms;
-  for (std::size_t t = 0; t < searched.terms.size(); ++t)
-    if (has_class(searched.terms[t], problem)) terms.push_back(t);
-  std::vector<ConfounderSet> out(searched.terms.size());
+  for (std::size_t t = 0; t < model.terms.size(); ++t)
+    if (has_class(model.terms[t], fit.problem())) terms.push_back(t);
+  std::vector<ConfounderSet> out(model.terms.size());
   if (terms.empty()) return out;
-  Proposer& proposer = search.proposer();
-  proposer.prepare(searched.phi);
+  Proposer& proposer = search.about(fit.problem());
+  proposer.prepare(model.phi);
   for_each_index(terms.size(), proposer.threads(), [&](std::size_t k) {
     out[terms[k]] =
-        distinguish(proposer, searched, terms[k], terms.size() > 1 ? 1 : proposer.threads());
+        distinguish(proposer, model, terms[k], terms.size() > 1 ? 1 : proposer.threads());
   });
   return out;
 }
@@ -100,9 +102,8 @@ std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const Model& s
 Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
                     const std::optional<Timing>& timing) {
   const Model& model = search.model;
-  const Model searched = search.searched_model();
   const Joint& joint = fit.joint();
-  const std::vector<ConfounderSet> classes = classes_of(search, searched, fit.problem());
+  const std::vector<ConfounderSet> classes = classes_of(search, fit);
   Explanation out;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     if (!model.terms[t].effect) {

@@ -95,31 +95,30 @@ CoarseToFineSearch::CoarseToFineSearch(const Problem& whole) {
   }
 }
 
-void CoarseToFineSearch::search_means(const Problem& whole) {
-  std::vector<Hypothesis> known, candidates;
-  std::vector<double> linear;
-  std::optional<LineScanner> scanner;
-  for (int look = 0; look < most_looks; ++look) {
-    means_ = condense(whole.point, whole.mask, whole.deviation_mm, known, linear,
-                      whole.resolution.sections, whole.threads);
-    if (!scanner) scanner.emplace(whole, &means_);
-    problem_.emplace(Problem{means_.point, means_.mask, whole.resolution, means_.deviation_mm,
-                             whole.false_alarm, whole.threads, whole.most_terms, whole.effects, 0.0,
-                             &means_, &whole, candidates, scanner->bandwidth()});
-    model = search(proposer_.emplace(*problem_));
-    phi_ = model.phi;
-    model.phi = noise_beside(whole, model.terms);
-    known = model.terms;
-    linear = take_fast_lines(whole, model, *scanner, known, candidates);
-    if (known.size() == model.terms.size()) break;
-  }
-  date_steps(whole, model);
+Proposer& CoarseToFineSearch::over_means(const Problem& whole) {
+  means_ = condense(whole.point, whole.mask, whole.deviation_mm, known_, linear_,
+                    whole.resolution.sections, whole.threads);
+  if (!scanner_) scanner_.emplace(whole, &means_);
+  problem_.emplace(Problem{means_.point, means_.mask, whole.resolution, means_.deviation_mm,
+                           whole.false_alarm, whole.threads, whole.most_terms, whole.effects, 0.0,
+                           &means_, &whole, candidates_, scanner_->bandwidth()});
+  return proposer_.emplace(*problem_);
 }
 
-Model CoarseToFineSearch::searched_model() const {
-  Model out = model;
-  out.phi = phi_;
-  return out;
+Proposer& CoarseToFineSearch::about(const Problem& whole) {
+  return is_condensed(whole.point) ? over_means(whole) : proposer_.emplace(whole);
+}
+
+void CoarseToFineSearch::search_means(const Problem& whole) {
+  for (int look = 0; look < most_looks; ++look) {
+    model = search(over_means(whole));
+    phi_ = model.phi;
+    model.phi = noise_beside(whole, model.terms);
+    known_ = model.terms;
+    linear_ = take_fast_lines(whole, model, *scanner_, known_, candidates_);
+    if (known_.size() == model.terms.size()) break;
+  }
+  date_steps(whole, model);
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -20,17 +20,24 @@ class CoarseToFineSearch {
   CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
 
   Model model;  ///< its noise is that of the readings
-  /// What was searched, and the model with the noise of that.
-  Proposer& proposer() { return *proposer_; }
-  Model searched_model() const;
+  /// Proposes what else may explain a term of the model, about another place than was searched:
+  /// over means again if that was.
+  /// @param whole outlives the proposer
+  Proposer& about(const Problem& whole);
+  const std::vector<double>& phi() const { return phi_; }  ///< noise of what was searched
 
  private:
+  /// The means of a problem, less lines that are known, and a proposer for them.
+  Proposer& over_means(const Problem& whole);
   void search_means(const Problem& whole);
 
   Means means_;
-  std::optional<Problem> problem_;    ///< over the means
-  std::optional<Proposer> proposer_;  ///< of what was searched
-  std::vector<double> phi_;           ///< noise of what was searched
+  std::vector<Hypothesis> known_, candidates_;  ///< fast lines that means would weaken
+  std::vector<double> linear_;                  ///< sizes of what is known
+  std::optional<LineScanner> scanner_;          ///< of the first means
+  std::optional<Problem> problem_;              ///< over the means
+  std::optional<Proposer> proposer_;            ///< of what was searched
+  std::vector<double> phi_;
 };
 
 }  // namespace trueaxis::diagnose_detail
