@@ -103,10 +103,9 @@ TEST(DiagnosedRivals, ASensorThatBendsAboutAnotherPlaceLeavesTheAxisWithinU) {
   }
 }
 
-// A probe 0.86 mm off height turns the part by 3° to either side as it is probed from the front and
-// from the rear, and a delay by 2° at one speed and by 4° at another. About the ideal fit the
-// second order of both, 0.3 µm of an eccentricity of 0.21 mm, fits a slip better than the height's
-// own column.
+// A probe 0.86 mm off height turns the part by 3°, the other way from the rear. A delay turns it by
+// 2° at one speed and by 4° at another. About the ideal fit the second order of both, 0.3 µm of an
+// eccentricity of 0.21 mm, fits a slip better than the height's own column.
 TEST(DiagnosedRivals, ASlipIsNotTheSecondOrderOfAProbeOffHeight) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Scenario scenario;

@@ -266,12 +266,14 @@ class Averaging {
     for (; k < beside_.size() && beside_[k].effect == effect; ++k, ++next) {
       if (!effect->stated && score(beside, wide_.places[next]).rank == 0) continue;
       const Weighed weighed = weigh_term(next, beside);
-      if (!effect->stated && !weighed.possible) continue;  // then it is not what the readings show
+      const double odds =
+          std::exp(-0.5 * std::clamp(odds_of(next, weighed, often), -1400.0, 1400.0));
+      // Readings that ask for a size that cannot be show another thing.
+      if (!effect->stated && !weighed.possible && odds > 1.0) continue;
       out.shapes.push_back(with(next, named_, weighed));
       out.places.push_back(next);
-      out.shapes.back().probability =
-          std::exp(-0.5 * std::clamp(odds_of(next, weighed, often), -1400.0, 1400.0));
-      sum += out.shapes.back().probability, ++shapes;
+      out.shapes.back().probability = odds;
+      sum += odds, ++shapes;
     }
     for (Alternative& a : out.shapes) a.probability /= sum;
     if (shapes > 0) out.odds = sum / static_cast<double>(shapes);

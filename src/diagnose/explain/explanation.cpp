@@ -80,20 +80,28 @@ bool has_class(const Hypothesis& term, const Problem& problem) {
 
 /// For all terms, on threads; empty where a term has none. About the part without the effects: the
 /// second order of a large one, which its own column lacks about the ideal fit, looks like others.
-std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const RelinearisedFit& fit) {
+/// A delay and a lag are one in the first order, and their second was compared before: their class
+/// is that of the search.
+std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const RelinearisedFit& fit,
+                                      const std::optional<Timing>& timing) {
   Model model = search.model;
-  model.terms = fit.joint().terms, model.phi = search.phi();
+  model.phi = search.phi();
+  std::vector<ConfounderSet> out(model.terms.size());
+  const auto tell = [&](Proposer& proposer, const std::vector<std::size_t>& terms) {
+    if (terms.empty()) return;
+    proposer.prepare(model.phi);
+    for_each_index(terms.size(), proposer.threads(), [&](std::size_t k) {
+      out[terms[k]] =
+          distinguish(proposer, model, terms[k], terms.size() > 1 ? 1 : proposer.threads());
+    });
+  };
   std::vector<std::size_t> terms;
   for (std::size_t t = 0; t < model.terms.size(); ++t)
-    if (has_class(model.terms[t], fit.problem())) terms.push_back(t);
-  std::vector<ConfounderSet> out(model.terms.size());
-  if (terms.empty()) return out;
-  Proposer& proposer = search.about(fit.problem());
-  proposer.prepare(model.phi);
-  for_each_index(terms.size(), proposer.threads(), [&](std::size_t k) {
-    out[terms[k]] =
-        distinguish(proposer, model, terms[k], terms.size() > 1 ? 1 : proposer.threads());
-  });
+    if (has_class(model.terms[t], fit.problem()) && !(timing && timing->term == t))
+      terms.push_back(t);
+  if (timing) tell(search.proposer(), {timing->term});
+  model.terms = fit.joint().terms;
+  if (!terms.empty()) tell(search.about(fit.problem()), terms);
   return out;
 }
 
@@ -103,7 +111,7 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
                     const std::optional<Timing>& timing) {
   const Model& model = search.model;
   const Joint& joint = fit.joint();
-  const std::vector<ConfounderSet> classes = classes_of(search, fit);
+  const std::vector<ConfounderSet> classes = classes_of(search, fit, timing);
   Explanation out;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     if (!model.terms[t].effect) {

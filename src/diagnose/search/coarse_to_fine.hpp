@@ -19,10 +19,11 @@ class CoarseToFineSearch {
   CoarseToFineSearch(const CoarseToFineSearch&) = delete;
   CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
 
-  Model model;  ///< its noise is that of the readings
+  Model model;                                 ///< its noise is that of the readings
+  Proposer& proposer() { return *proposer_; }  ///< of what was searched
   /// Proposes what else may explain a term of the model, about another place than was searched:
-  /// over means again if that was.
-  /// @param whole outlives the proposer
+  /// over means again if that was. It takes the place of the one before.
+  /// @param whole outlives it
   Proposer& about(const Problem& whole);
   const std::vector<double>& phi() const { return phi_; }  ///< noise of what was searched
 
