@@ -6,6 +6,7 @@
 #include "base/threads.hpp"
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/explain/describe.hpp"
+#include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 
@@ -80,28 +81,26 @@ bool has_class(const Hypothesis& term, const Problem& problem) {
 
 /// For all terms, on threads; empty where a term has none. About the part without the effects: the
 /// second order of a large one, which its own column lacks about the ideal fit, looks like others.
-/// A delay and a lag are one in the first order, and their second was compared before: their class
-/// is that of the search.
-std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const RelinearisedFit& fit,
-                                      const std::optional<Timing>& timing) {
+/// The readings about a lag that was found hold its second order, which the search's do not: a
+/// delay is one with it to the first, and stays in its class.
+std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const RelinearisedFit& fit) {
   Model model = search.model;
   model.phi = search.phi();
+  std::vector<std::size_t> lags, others;
+  for (std::size_t t = 0; t < model.terms.size(); ++t)
+    if (has_class(model.terms[t], fit.problem()))
+      (is_lag(model.terms[t]) ? lags : others).push_back(t);
   std::vector<ConfounderSet> out(model.terms.size());
   const auto tell = [&](Proposer& proposer, const std::vector<std::size_t>& terms) {
-    if (terms.empty()) return;
     proposer.prepare(model.phi);
     for_each_index(terms.size(), proposer.threads(), [&](std::size_t k) {
       out[terms[k]] =
           distinguish(proposer, model, terms[k], terms.size() > 1 ? 1 : proposer.threads());
     });
   };
-  std::vector<std::size_t> terms;
-  for (std::size_t t = 0; t < model.terms.size(); ++t)
-    if (has_class(model.terms[t], fit.problem()) && !(timing && timing->term == t))
-      terms.push_back(t);
-  if (timing) tell(search.proposer(), {timing->term});
+  if (!lags.empty()) tell(search.proposer(), lags);
   model.terms = fit.joint().terms;
-  if (!terms.empty()) tell(search.about(fit.problem()), terms);
+  if (!others.empty()) tell(search.about(fit.problem()), others);
   return out;
 }
 
@@ -111,7 +110,7 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
                     const std::optional<Timing>& timing) {
   const Model& model = search.model;
   const Joint& joint = fit.joint();
-  const std::vector<ConfounderSet> classes = classes_of(search, fit, timing);
+  const std::vector<ConfounderSet> classes = classes_of(search, fit);
   Explanation out;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     if (!model.terms[t].effect) {
