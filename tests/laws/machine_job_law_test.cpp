@@ -54,6 +54,26 @@ Truth truth_of(const MachineJobResult& result, const ErrorModel& truth) {
   return out;
 }
 
+/// How far tips are off, in u.
+struct Shares {
+  double squares = 0.0, most = 0.0;
+  std::size_t tips = 0;
+
+  template <typename Vectors>
+  void add(const Vectors& off_mm, const MachineJobResult& result) {
+    for (std::size_t i = 0; i < off_mm.size(); ++i) {
+      const double share = off_mm[i].norm() / result.tips[i].u_mm;
+      squares += share * share, most = std::max(most, share), ++tips;
+    }
+  }
+  /// Of the squares; printed with the largest.
+  double mean() const {
+    const double out = squares / static_cast<double>(tips);
+    std::printf("mean |d|^2/u^2 %.3f, largest |d|/u %.2f of %zu tips\n", out, most, tips);
+    return out;
+  }
+};
+
 // E|δ'|² = u² at every tip if only noise is uncertain. With 15 parameters and 40 measurements the
 // mean of |δ'|²/u² has a relative standard deviation of about sqrt(2/(40 · 5)) = 0.1, with five
 // effective directions per measurement. The bounds are five of these. The uncertainty u also counts
@@ -66,8 +86,7 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   std::printf("seed %ju\n", static_cast<std::uintmax_t>(seed));
   const Machine machine = trunnion();
   const ErrorModel none;
-  double sum = 0.0, most = 0.0;
-  std::size_t tips = 0;
+  Shares shares;
   for (int machine_number = 0; machine_number < 40; ++machine_number) {
     ErrorModel truth = drawn_location_errors(machine, draw);
     const ErrorName hidden = *parse_error_name("EYC");
@@ -87,18 +106,12 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
                after = without_rigid_body(real.wanted, real.after);
     EXPECT_NEAR(largest_norm(before), result.verdict.before_mm, 1.75 * result.verdict.U_mm);
     EXPECT_LT(largest_norm(after), 0.2 * largest_norm(before));
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      const double share = after[i].norm() / result.tips[i].u_mm;
-      sum += share * share;
-      most = std::max(most, share);
-      ++tips;
-    }
+    shares.add(after, result);
   }
-  const double mean = sum / static_cast<double>(tips);
-  std::printf("mean |d|^2/u^2 %.3f, largest |d|/u %.2f of %zu tips\n", mean, most, tips);
+  const double mean = shares.mean();
   EXPECT_GT(mean, 0.5);
   EXPECT_LT(mean, 1.5);
-  EXPECT_LT(most, 5.0);
+  EXPECT_LT(shares.most, 5.0);
 }
 
 // One ball and one tool do not tell some location errors of a head from others and the ball's
@@ -114,8 +127,7 @@ TEST(MachineJobLaw, TheUncertaintyCountsWhatOneBallDoesNotTell) {
   const ErrorModel none;
   BallPlan plan;
   plan.balls = {{60.0, 20.0, 30.0}}, plan.tool_lengths_mm = {120.0}, plan.tilt = 4;
-  double sum = 0.0, most = 0.0;
-  std::size_t tips = 0;
+  Shares shares;
   for (int machine_number = 0; machine_number < 40; ++machine_number) {
     const ErrorModel truth = drawn_location_errors(machine, draw);
     MachineJob job;
@@ -127,18 +139,12 @@ TEST(MachineJobLaw, TheUncertaintyCountsWhatOneBallDoesNotTell) {
     const Truth real = truth_of(result, truth);
     const auto after = without_rigid_body(real.wanted, real.after);
     ASSERT_EQ(result.tips.size(), after.size());
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      const double share = after[i].norm() / result.tips[i].u_mm;
-      sum += share * share;
-      most = std::max(most, share);
-      ++tips;
-    }
+    shares.add(after, result);
   }
-  const double mean = sum / static_cast<double>(tips);
-  std::printf("mean |d|^2/u^2 %.3f, largest |d|/u %.2f of %zu tips\n", mean, most, tips);
+  const double mean = shares.mean();
   EXPECT_GT(mean, 0.2);
   EXPECT_LT(mean, 1.8);
-  EXPECT_LT(most, 5.0);
+  EXPECT_LT(shares.most, 5.0);
 }
 
 // A probe whose length is stated 1 mm wrong on every row fits as well as the right one: the lines
