@@ -198,7 +198,18 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
   const IdealModel ideal(stream, options, out.baseline, indicated);
   CoarseToFineSearch search(ideal.problem);
   std::optional<Timing> timing;
-  const std::unique_ptr<RelinearisedFit> refit = relinearise(ideal, search.model, timing);
+  std::unique_ptr<RelinearisedFit> refit = relinearise(ideal, search.model, timing);
+  const std::unique_ptr<RelinearisedFit> slipped = after_first_step(ideal, search.model);
+  if (slipped) {
+    const Model before = search.model;
+    search.again(slipped->problem());
+    std::optional<Timing> of_other;
+    auto other = relinearise(ideal, search.model, of_other);
+    if (other->criterion() < refit->criterion())
+      refit = std::move(other), timing = of_other;
+    else
+      search.model = before;
+  }
   Explanation explanation;
   for_each_index(2, threads, [&](std::size_t k) {
     if (k == 0) explanation = explain(search, *refit, timing);

@@ -82,7 +82,7 @@ std::vector<Effect> part_roundness() {
        .needs = {.length = true},
        .typical = {{&TermShape::period_mm, {0.173}}},
        .search = {When::scanned},
-       .line = SpectralLine{SpectralLine::In::spiral, 0.7, 20.0}},
+       .line = SpectralLine{SpectralLine::In::spiral, 0.25, 20.0}},
       {.id = "part.bow",
        .title = "a bent part",
        .slot = Slot::part,

@@ -136,6 +136,8 @@ Outputs::~Outputs() {
 void Outputs::reads(const std::string& path) { inputs_.push_back(path); }
 
 void Outputs::into(const std::string& folder) {
+  if (folder == "-")
+    throw InputError("-", "is not a folder: give one, or let --json - print the result");
   const fs::path path = folder;
   folder_ = path.has_filename() ? folder : path.parent_path().string();
 }

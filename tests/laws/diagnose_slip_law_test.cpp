@@ -7,6 +7,7 @@
 #include "job/doubts.hpp"
 #include "support/sweep_examples.hpp"
 #include "trueaxis/diagnosis.hpp"
+#include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::testing {
@@ -99,6 +100,72 @@ TEST(SlipAtAnEnd, IsSeenATurnBeforeTheEnd) {
   EXPECT_TRUE(has_slip(diagnosed(simulate(scenario))));
 }
 
+/// The final axis at both ends is that of the part after a slip. One of 16 000 is beyond 4 u.
+void expect_axis_after(const Scenario& scenario, double dx_mm, double dy_mm, double end_mm,
+                       const Diagnosis& diagnosis) {
+  const Part& part = scenario.part;
+  const double n = std::sqrt(1.0 - part.l * part.l - part.m * part.m);
+  for (const double z_mm : {0.0, end_mm}) {
+    const auto stated = diagnosis.extended.axis.axis.at(z_mm);
+    const double u = diagnosis.extended.axis.u_at(z_mm);
+    EXPECT_NEAR(stated[0], part.x0_mm + part.l / n * z_mm + dx_mm, 4.0 * u) << scenario.seed;
+    EXPECT_NEAR(stated[1], part.y0_mm + part.m / n * z_mm + dy_mm, 4.0 * u) << scenario.seed;
+  }
+}
+
+// A slip δ leaves δ²/2R of the second order, 1 to 2.3 µm here with 0.5 µm of noise: lobes of the
+// order 2 before it. They were named, a rival cause took its size from them, and the axis was 7 µm
+// off with U 3 µm.
+TEST(LargeSlip, IsExactToAllOrders) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Scenario scenario = turned_cylinder();
+    scenario.seed = seed;
+    scenario.part.radius_mm = 20.0;
+    scenario.noise.sigma_mm = 0.0005;
+    const double slip = 0.2 + 0.05 * static_cast<double>(seed % 3), towards = 1.1 * double(seed);
+    const double dx = slip * std::cos(towards), dy = slip * std::sin(towards);
+    scenario.effects = {{"part.slip", {{"time_s", 12.0}, {"dx_mm", dx}, {"dy_mm", dy}}},
+                        {"part.barrel", {{"amplitude_mm", 0.006}}}};
+    const Diagnosis diagnosis = diagnosed(simulate(scenario));
+    EXPECT_TRUE(has_slip(diagnosis)) << "seed " << seed;
+    EXPECT_EQ(diagnosis.findings.size(), 2U) << "seed " << seed;
+    expect_axis_after(scenario, dx, dy, 30.0, diagnosis);
+  }
+}
+
+// Between the places of a part that slipped by 0.15 mm in a second set-up, a barrel and a bent
+// slide differ by what a tilt does: 1 mm of each was found, against the other. About the part after
+// the slip they are one. The axis was 3 to 9 µm off, beyond 4 u in each of four.
+TEST(LargeSlip, InASecondSetUpIsSearchedAgain) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Scenario scenario = turned_cylinder();
+    scenario.seed = seed;
+    scenario.part.radius_mm = 26.6;
+    scenario.noise.sigma_mm = 0.0005;
+    PlannedPass& out = scenario.plan.passes[0];
+    out.end_mm = 17.8, out.feed_mm_per_rev = 0.65, out.readings_per_revolution = 30.2;
+    PlannedPass back = out, again = out;
+    std::swap(back.start_mm, back.end_mm);
+    back.speed_rpm = 2.5 * out.speed_rpm, again.setup = 2;
+    scenario.plan.passes.insert(scenario.plan.passes.end(), {back, again});
+    Part& part = scenario.part;
+    Chucking turned;
+    turned.number = 2, turned.reindex_rad = 70.0 * rad_per_deg;
+    turned.x0_mm = -0.006, turned.y0_mm = 0.009, turned.l = -4e-4, turned.m = 1e-4;
+    scenario.plan.setups = {turned};
+    const double until = simulate(scenario).time_s.back();
+    scenario.effects = {
+        {"part.slip", {{"time_s", until - 15.5}, {"dx_mm", -0.139}, {"dy_mm", 0.049}}},
+        {"part.barrel", {{"amplitude_mm", 0.006}, {"cubic_mm", -0.001}}},
+        {"part.roundness", {{"amplitude_mm", 0.005}, {"order", 2.0}, {"phase_rad", 2.8}}}};
+    const Diagnosis diagnosis = diagnosed(simulate(scenario));
+    EXPECT_EQ(diagnosis.extended.status, FitStatus::converged) << diagnosis.extended.message;
+    EXPECT_TRUE(has_slip(diagnosis)) << "seed " << seed;
+    part.x0_mm = *turned.x0_mm, part.y0_mm = *turned.y0_mm, part.l = *turned.l, part.m = *turned.m;
+    expect_axis_after(scenario, -0.139, 0.049, 17.8, diagnosis);
+  }
+}
+
 /// A part that slips by (12, 9) µm before a reading, probed in sections, one a second.
 Scenario probed_in_sections(std::uint64_t seed, int sections, double per_turn, double reading) {
   Scenario scenario = probed_part(PartKind::cylinder);
@@ -127,15 +194,7 @@ TEST(SlipInSections, IsFoundInTheLastOne) {
     const Scenario scenario = probed_in_sections(seed, 5, 36.0, 4 * 36 + 18);
     const Diagnosis diagnosis = diagnosed(simulate(scenario));
     EXPECT_TRUE(has_slip(diagnosis)) << "seed " << seed;
-    const Part& part = scenario.part;
-    const double n = std::sqrt(1.0 - part.l * part.l - part.m * part.m);
-    for (const double z_mm : {0.0, 40.0}) {
-      const auto stated = diagnosis.extended.axis.axis.at(z_mm);
-      const double u = diagnosis.extended.axis.u_at(z_mm);
-      // One of 16 000 is beyond 4 u.
-      EXPECT_NEAR(stated[0], part.x0_mm + part.l / n * z_mm + 0.012, 4.0 * u) << seed;
-      EXPECT_NEAR(stated[1], part.y0_mm + part.m / n * z_mm + 0.009, 4.0 * u) << seed;
-    }
+    expect_axis_after(scenario, 0.012, 0.009, 40.0, diagnosis);
   }
 }
 

@@ -256,7 +256,10 @@ class Averaging {
     const Effect* effect = nullptr;
   };
 
-  Missed missed_from(std::size_t& k, std::size_t next, const Projection& beside) const {
+  /// @param shown the same without what the sizes of the terms may plausibly be: what the readings
+  /// alone do not show is not in U
+  Missed missed_from(std::size_t& k, std::size_t next, const Projection& beside,
+                     const Projection& shown) const {
     Missed out;
     const Effect* effect = beside_[k].effect;
     const double often = is_step(effect->term) ? moved_in_all : present;
@@ -264,7 +267,7 @@ class Averaging {
     double sum = 0.0;
     std::size_t shapes = 0;
     for (; k < beside_.size() && beside_[k].effect == effect; ++k, ++next) {
-      if (!effect->stated && score(beside, wide_.places[next]).rank == 0) continue;
+      if (!effect->stated && score(shown, wide_.places[next]).rank == 0) continue;
       const Weighed weighed = weigh_term(next, beside);
       const double odds =
           std::exp(-0.5 * std::clamp(odds_of(next, weighed, often), -1400.0, 1400.0));
@@ -283,10 +286,12 @@ class Averaging {
   /// Effects that are there more likely than not are taken as alternatives to each other, for they
   /// may explain the same; the others as independent. What is stated of one is there.
   void of_not_found(std::size_t next, AveragedAxis& out) const {
-    const Projection beside = project(gram_, named_.columns);
+    const Eigen::MatrixXd of_readings = wide_.equations.total();
+    const Projection beside = project(gram_, named_.columns),
+                     shown = project(of_readings, named_.columns);
     std::vector<Missed> missed;
     for (std::size_t k = 0, first = 0; k < beside_.size(); first = k)
-      missed.push_back(missed_from(k, next + first, beside));
+      missed.push_back(missed_from(k, next + first, beside, shown));
     double likely = 0.0;
     const auto competes = [](const Missed& m) { return m.odds > 1.0 && !m.effect->stated; };
     for (const Missed& m : missed)

@@ -65,7 +65,15 @@ const Clamping& clamping_of(const std::vector<Clamping>& clampings, int number) 
   return *found;
 }
 
-/// Pass by pass.
+const Clamping& clamping_at(const std::vector<Clamping>& clampings,
+                            const std::vector<Clamping>& before, int number, std::size_t reading) {
+  const auto at = std::ranges::find_if(before, [&](const Clamping& c) {
+    return reading < c.until && (clampings.size() == 1 || c.number == number);
+  });
+  return at != before.end() ? *at : clamping_of(clampings, number);
+}
+
+/// Pass by pass, and place by place of a part that slipped.
 void make_part(const LinearisationPoint& point, std::size_t begin, std::size_t end,
                PointRoom& out) {
   const std::size_t size = end - begin;
@@ -74,12 +82,14 @@ void make_part(const LinearisationPoint& point, std::size_t begin, std::size_t e
   sincos(std::span<const double>(point.c).subspan(begin, size), std::span(out.sine).first(size),
          std::span(out.cosine).first(size));
   auto pass = std::ranges::upper_bound(point.passes, begin, {}, &Pass::end);
-  for (std::size_t from = begin; from < end; ++pass) {
-    const std::size_t to = std::min(end, pass->end), at = from - begin, count = to - from;
+  for (std::size_t from = begin; from < end; pass += from == pass->end) {
+    const Clamping& now = clamping_at(point.clampings, point.before, pass->setup, from);
+    const std::size_t to = std::min({end, pass->end, now.until}), at = from - begin,
+                      count = to - from;
     const auto number = static_cast<std::size_t>(pass - point.passes.begin());
     std::fill_n(out.speed.begin() + static_cast<long>(at), count, pass->speed_rad_per_s);
     std::fill_n(out.velocity.begin() + static_cast<long>(at), count, point.velocity[number]);
-    fill_contacts(clamping_of(point.clampings, pass->setup), point.base.face, at, count, out);
+    fill_contacts(now, point.base.face, at, count, out);
     from = to;
   }
 }

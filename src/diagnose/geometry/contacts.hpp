@@ -13,6 +13,10 @@ namespace trueaxis::diagnose_detail {
 /// Of a set-up.
 const Clamping& clamping_of(const std::vector<Clamping>& clampings, int number);
 
+/// That of a reading if the part may have slipped (LinearisationFacts::before).
+const Clamping& clamping_at(const std::vector<Clamping>& clampings,
+                            const std::vector<Clamping>& before, int number, std::size_t reading);
+
 /// Makes readings [begin, end) of a point whose C, Z, time, passes and clampings are there.
 void make_part(const LinearisationPoint& point, std::size_t begin, std::size_t end, PointRoom& out);
 

@@ -145,9 +145,11 @@ ColumnSource source_of(const LinearisationPoint& point, PointColumn column) {
   };
 }
 
-bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings) {
+bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+                      const std::vector<Clamping>& before) {
   for (std::size_t i = 0; i < stream.size() && stream.kind == StreamKind::lateral; ++i) {
-    const Clamping& now = clamping_of(clampings, stream.setup.empty() ? 1 : stream.setup[i]);
+    const Clamping& now =
+        clamping_at(clampings, before, stream.setup.empty() ? 1 : stream.setup[i], i);
     const double z_mm = stream.has_position() ? stream.position_mm[i] : 0.0;
     if (!intersect(now.shape, stream.c_rad[i], z_mm, 0.0, now.root).hit) return false;
   }
@@ -155,8 +157,10 @@ bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& cl
 }
 
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                                const BaseKind& base, bool bore, int threads) {
+                                const BaseKind& base, bool bore, int threads,
+                                std::vector<Clamping> before) {
   LinearisationPoint point;
+  point.before = std::move(before);
   point.passes = find_passes(stream);
   point.c = SharedColumn::of(stream.c_rad);
   point.z = SharedColumn::of(stream.position_mm);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,6 +27,7 @@ struct Clamping {
   Root root = Root::front;
   double reindex_rad = 0.0, z_shift_mm = 0.0, x_jog_mm = 0.0, clamp_force_ratio = 1.0;
   std::size_t axis = 0;  ///< which axis of the base it has: set-ups not moved share one
+  std::size_t until = std::numeric_limits<std::size_t>::max();  ///< the reading it ends before
 };
 
 /// What the base of the model is: rigid motions of every axis, and the shape all share.
@@ -56,6 +58,7 @@ struct LinearisationFacts {
   bool has_time = false, has_position = true, reindexed = false, jogged = false, shifted = false,
        two_sided = false, reclamped = false;
   std::vector<Clamping> clampings;
+  std::vector<Clamping> before;  ///< of a part that slipped: where it was, until when
 
   double end_mm() const { return std::abs(z_mid_mm) + z_half_mm; }  ///< outer end of a face
 };
@@ -123,11 +126,14 @@ ColumnSource source_of(const LinearisationPoint& point, PointColumn column);
 
 /// Whether the probe line of every reading meets the surface as it is clamped then: beyond a cone's
 /// apex, or next to a thin part, none does. A face is met everywhere.
-bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings);
+bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+                      const std::vector<Clamping>& before = {});
 
 /// @param stream columns C, Z, t, set-up, which outlive the point; its readings are not used.
+/// @param before LinearisationFacts::before
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                                const BaseKind& base, bool bore, int threads = 1);
+                                const BaseKind& base, bool bore, int threads = 1,
+                                std::vector<Clamping> before = {});
 /// The same of a stream whose columns the point takes.
 LinearisationPoint linearise_at(ProbeStream&& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore, int threads = 1);

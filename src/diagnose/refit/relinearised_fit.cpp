@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/threads.hpp"
+#include "diagnose/refit/places_before.hpp"
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/regression/size_prior.hpp"
@@ -75,12 +76,14 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
   if (!terms_.empty()) relinearise(model);
   deviation_mm_ = deviation_from(ideal.stream, point_ ? *point_ : first.point, first.threads);
   if (!known_mm_.empty()) add(deviation_mm_, known_mm_);
+  if (!step_mm_.empty()) add(deviation_mm_, step_mm_);
   problem_.emplace(first.about(point_ ? *point_ : first.point, deviation_mm_));
   joint_.emplace(*problem_, model.phi, terms_, terms_.size());
   const auto count = static_cast<Eigen::Index>(columns_of(terms_));
   effect_mm_ = contribution(problem_->point, terms_,
                             span_of(joint_->solution.coefficients.tail(count)), first.threads);
   if (moved_) add(effect_mm_, turned_mm_);
+  if (!beyond_mm_.empty()) add(effect_mm_, beyond_mm_);
 }
 
 /// What the terms add to the readings, for the surface.
@@ -105,6 +108,14 @@ FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, BaseUncertainty
   std::vector<double> moved = taken_off_mm();
   subtract_base(moved, point, shift, problem_->threads);
   return extended_fit(cleaned(std::move(moved)), point, base);
+}
+
+double RelinearisedFit::criterion() const {
+  const auto rows = static_cast<double>(joint_->equations.count());
+  const auto dates = std::ranges::count_if(
+      terms_, [](const Hypothesis& h) { return h.effect && is_step(h.effect->term); });
+  return rows * std::log(joint_->solution.rss) - joint_->equations.log_volume() +
+         static_cast<double>(joint_->solution.rank + dates) * std::log(rows);
 }
 
 std::vector<double> RelinearisedFit::residual_mm() const {
@@ -132,14 +143,19 @@ void RelinearisedFit::relinearise(const Model& model) {
             .fit;
     if (!is_diagnosable(extended)) return;
     const std::vector<Clamping> clampings = clampings_of(extended, ideal_.ball_mm);
+    std::vector<Clamping> before;
+    if (rounds == 1) before = places_before(about->point, terms_, found, clampings);
+    if (!every_line_meets(ideal_.stream, clampings, before)) before.clear();
     linearise_at_sizes(terms_, found, plays);
     if (rounds == 1 && std::ranges::any_of(terms_, turns)) {
       linearise_at_sizes(terms_, found, is_linearised_at_its_size);
-      return turn(found, clampings);
+      turn(found, clampings, before);
+      return note_steps(found, clampings);
     }
     about.reset();  // it is about the point that goes
-    point_ =
-        linearise_at(ideal_.stream, clampings, first.point.base, first.point.bore, first.threads);
+    point_ = linearise_at(ideal_.stream, clampings, first.point.base, first.point.bore,
+                          first.threads, before);
+    if (rounds == 1) return note_steps(found, clampings);
     deviation_mm_ = deviation_from(ideal_.stream, *point_, first.threads);
     about.emplace(first.about(*point_, deviation_mm_));
   }
@@ -147,10 +163,11 @@ void RelinearisedFit::relinearise(const Model& model) {
 
 /// Moves what all terms are about to the angles that delays and lags make true, and notes what is
 /// known of X: X(a) = X(a') + (a − a') ∂X/∂a.
-void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings) {
+void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings,
+                           const std::vector<Clamping>& before) {
   const LinearisationPoint& first = ideal_.point;
   const auto point_of = [&](const ProbeStream& stream) {
-    return linearise_at(stream, clampings, first.base, first.bore, ideal_.problem.threads);
+    return linearise_at(stream, clampings, first.base, first.bore, ideal_.problem.threads, before);
   };
   moved_ = ideal_.stream;
   Eigen::Index at = 0;
@@ -189,6 +206,26 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
   }
 }
 
+/// Of a part that slipped the readings before are about where it was then: X(before) − X(after) is
+/// known to all orders, and (dx² + dy²)/2R of a slip beyond the first.
+void RelinearisedFit::note_steps(const Eigen::VectorXd& found,
+                                 const std::vector<Clamping>& clampings) {
+  if (point_->before.empty()) return;
+  const Problem& first = ideal_.problem;
+  step_mm_.assign(first.point.size(), 0.0);
+  Eigen::Index at = 0;
+  for (const Hypothesis& h : terms_) {
+    const Eigen::VectorXd by = found.segment(at, static_cast<Eigen::Index>(h.columns()));
+    at += by.size();
+    if (is_step_at_once(h)) add(step_mm_, contribution_of(h, *point_, by, first.threads));
+  }
+  beyond_mm_ = point_->column(&PointPart::x);
+  const LinearisationPoint after = linearise_at(moved_ ? *moved_ : ideal_.stream, clampings,
+                                                first.point.base, first.point.bore, first.threads);
+  add(beyond_mm_, after.column(&PointPart::x), -1.0);
+  add(beyond_mm_, step_mm_, -1.0);
+}
+
 namespace {
 
 /// The fit without terms whose test does not pass about what was found, the least of them first.
@@ -212,6 +249,15 @@ std::unique_ptr<RelinearisedFit> fit_of_what_passes(const IdealModel& ideal, Mod
 }
 
 }  // namespace
+
+std::unique_ptr<RelinearisedFit> after_first_step(const IdealModel& ideal, const Model& model) {
+  const auto step = std::ranges::find_if(
+      model.terms, [](const Hypothesis& h) { return h.effect && is_step(h.effect->term); });
+  if (step == model.terms.end()) return nullptr;
+  Model alone = model;
+  alone.terms = {*step};
+  return std::make_unique<RelinearisedFit>(ideal, alone);
+}
 
 std::unique_ptr<RelinearisedFit> relinearise(const IdealModel& ideal, Model& model,
                                              std::optional<Timing>& timing) {

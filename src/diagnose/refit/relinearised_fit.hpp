@@ -26,6 +26,8 @@ class RelinearisedFit {
   const Joint& joint() const { return *joint_; }
   /// The sum of all terms, one per reading.
   const std::vector<double>& effect_mm() const { return effect_mm_; }
+  /// N ln RSS + k ln N (Schwarz 1978), about the part itself.
+  double criterion() const;
   /// Readings minus surface and terms, one a reading, mm.
   std::vector<double> residual_mm() const;
   /// Fits the surface without the terms: before `take_named` and `shifted`.
@@ -42,13 +44,17 @@ class RelinearisedFit {
   void relinearise(const Model& model);
   std::vector<double> taken_off_mm() const;
   CleanedFit cleaned(std::vector<double> taken_off_mm) const;
-  void turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings);
+  void turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings,
+            const std::vector<Clamping>& before);
+  void note_steps(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings);
 
   const IdealModel& ideal_;
   std::vector<Hypothesis> terms_;     ///< a lag at the time constant found
   std::optional<ProbeStream> moved_;  ///< the stream at the spindle angles that a delay makes true
   std::optional<LinearisationPoint> point_;  ///< none: the first
   std::vector<double> known_mm_;   ///< what is known of the terms, added to the readings; or empty
+  std::vector<double> step_mm_;    ///< what is known of steps, added to the readings; or empty
+  std::vector<double> beyond_mm_;  ///< X after steps less X before, beyond the first order
   std::vector<double> turned_mm_;  ///< X at the true less X at the recorded angles; or empty
   std::vector<double> deviation_mm_;
   std::optional<Problem> problem_;
@@ -56,6 +62,10 @@ class RelinearisedFit {
   std::vector<double> effect_mm_;
   CleanedFit cleaned_;
 };
+
+/// The part after a step that was found, and nothing else: the ideal fit lies between the places of
+/// a part that moved, where whatever varies along Z looks like more of the move. None: no step.
+std::unique_ptr<RelinearisedFit> after_first_step(const IdealModel& ideal, const Model& model);
 
 /// What the second order says of a lag and a delay, which are one in the first: the model holds the
 /// better of the two.

@@ -144,15 +144,19 @@ TargetSurface read_target(TomlTable table, Job& job) {
   return target;
 }
 
+constexpr double most_turns = 1e6;  // of C: a double then tells 1e-9 rad
+
 ToolSetup read_tool(TomlTable table) {
   ToolSetup tool;
   tool.nose_radius_mm = table.number("nose_radius_mm", tool.nose_radius_mm, Range::non_negative());
   tool.height_mm = table.number("tool_height_mm", tool.height_mm);
-  tool.angle_from_probe_rad = table.number("angle_from_probe_rad", tool.angle_from_probe_rad);
+  tool.angle_from_probe_rad = table.number("angle_from_probe_rad", tool.angle_from_probe_rad,
+                                           Range::between(-two_pi, two_pi));
   tool.speed_rpm = table.required_number("speed_rpm", Range::positive());
   tool.sense = table.required_choice<int>("sense", {{"+c", 1}, {"-c", -1}});
   tool.feed_mm_per_rev = table.required_number("feed_mm_per_rev", Range::positive());
-  tool.c_start_rad = table.number("c_start_rad", tool.c_start_rad);
+  tool.c_start_rad = table.number("c_start_rad", tool.c_start_rad,
+                                  Range::between(-most_turns * two_pi, most_turns * two_pi));
   tool.rows_per_revolution =
       static_cast<int>(table.integer("rows_per_revolution", tool.rows_per_revolution, 8, 100000));
   tool.interpolation = table.choice<Interpolation>(
@@ -180,6 +184,16 @@ void check_nose(TomlTable cut, const TargetSurface& target, const ToolSetup& too
                              radius_mm, z_mm));
     return;
   }
+}
+
+/// A nose that is moved on by more than its width leaves ridges of stock between its turns.
+void check_feed(TomlTable cut, const ToolSetup& tool) {
+  const double width_mm = 2.0 * tool.nose_radius_mm;
+  if (width_mm > 0.0 && tool.feed_mm_per_rev > width_mm)
+    cut.complain("feed_mm_per_rev",
+                 fmt::format("is more than the width of the tool's nose, {:.6g} mm: stock would be "
+                             "left between the turns",
+                             width_mm));
 }
 
 /// The rows that the table of this cut would have must fit a file that a control can be given.
@@ -279,6 +293,7 @@ void read_cut(TomlTable root, JobFile& file, bool required) {
     job.tool = read_tool(cut);
     check_rows(cut, *job.target, job.tool);
     check_nose(cut, *job.target, job.tool);
+    check_feed(cut, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
     if (auto correction = root.maybe_table("correction")) read_correction(*correction, job);
     read_outputs(root, file);
