@@ -36,6 +36,12 @@ TEST(FamilyOfTests, ThresholdsAreThoseOfTheFamily) {
   EXPECT_NEAR((Family{200.0, 3000.0}.threshold(0.01)), 28.0, 1.5);
 }
 
+// p of the least of n tests is 1 − e^(−n p): any level below 1 − e^(−n) has its p.
+TEST(FamilyOfTests, TheSingleLevelIsItsInverse) {
+  for (const double level : {0.01, 0.3, 0.6})
+    EXPECT_NEAR((Family{1.0, 0.0}.single_level(level)), -std::log1p(-level), 1e-12);
+}
+
 TEST(FamilyOfTests, IsMonotone) {
   double before = 0.0;
   for (const double n : {1.0, 2.0, 10.0, 100.0, 1e4, 1e6}) {
