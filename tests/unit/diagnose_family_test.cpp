@@ -135,6 +135,16 @@ TEST(DetectionPower, IsTheTableOfOneCause) {
   }
 }
 
+// The power at λ = 0 is the level, and it goes there: by λ times the slope, below 1 for such
+// levels.
+TEST(DetectionPower, OfNothingIsTheLevel) {
+  for (const double freedom : {3.0, 145.0, infer::known_sigma})
+    for (const double level : {1e-5, 1e-2}) {
+      EXPECT_NEAR(infer::detection_power(0.0, 2.0, freedom, level), level, 1e-9 * level);
+      EXPECT_NEAR(infer::detection_power(1e-9, 2.0, freedom, level), level, 1e-9);
+    }
+}
+
 // Readings that a term uses up to the last leave nothing to test it by: its p-value is 1, so that
 // no size is found.
 TEST(DetectionPower, NothingIsFoundWithoutADegreeOfFreedom) {

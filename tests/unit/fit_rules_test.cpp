@@ -81,8 +81,24 @@ TEST(FitUncertainty, OfAScatteringAngleDoesNotDependOnWhereTheAxisIs) {
   }
 }
 
+// u in units of 1e-3: 1 of x and y at the middle, 0.1 of each slope; in quadrature 5 at 49 mm off
+// it. A plane has no place, and its slopes count together.
+TEST(FitMovedPart, UOfAnAxisIsThatAtItsWorseEnd) {
+  FitResult fit;
+  fit.coverage_factor = 3.0;
+  fit.axis.axis.z_ref_mm = 10.0;
+  fit.axis.covariance.by_rows = {1e-6, 0, 0, 0, 0, 1e-6, 0, 0, 0, 0, 1e-8, 0, 0, 0, 0, 1e-8};
+  fit.position_min_mm = 10.0 - std::sqrt(2400.0), fit.position_max_mm = 30.0;
+  fit.surface = SurfaceKind::cylinder;
+  EXPECT_NEAR(U_of_axis_mm(fit), 3.0 * 5e-3, 1e-12);
+  fit.surface = SurfaceKind::plane;
+  EXPECT_NEAR(U_of_axis_mm(fit), 3.0 * (std::sqrt(2400.0) - 10.0) * std::sqrt(2e-8), 1e-12);
+  fit.position_max_mm = 60.0;
+  EXPECT_NEAR(U_of_axis_mm(fit), 3.0 * 60.0 * std::sqrt(2e-8), 1e-12);
+}
+
 // A lone reading far off does not count, whatever it is; of two neighbours both do. The size of a
-// step is that of the three turns before and after it, here of turns 1 to 6.
+// step is that of the three turns before and after it, here of the first six.
 TEST(FitMovedPart, OnlyALoneReadingFarOffDoesNotCount) {
   constexpr std::size_t per_turn = 144, count = 8 * per_turn + 1;
   const ProbeStream stream = cylinder(count, static_cast<double>(count) / per_turn, 0.1);
@@ -91,7 +107,7 @@ TEST(FitMovedPart, OnlyALoneReadingFarOffDoesNotCount) {
   std::normal_distribution<double> normal(0.0, 1e-3);
   std::vector<double> left_mm;
   for (std::size_t i = 0; i < count; ++i)
-    left_mm.push_back(normal(random) + (i < count / 2 ? 0.0 : 4e-3 * std::cos(stream.c_rad[i])));
+    left_mm.push_back(normal(random) + (i < 3 * per_turn ? 0.0 : 4e-3 * std::cos(stream.c_rad[i])));
   const auto step_mm = [&](std::size_t at, const std::vector<double>& off_mm) {
     std::vector<double> there = left_mm;
     std::ranges::copy(off_mm, there.begin() + static_cast<std::ptrdiff_t>(at));
@@ -99,7 +115,7 @@ TEST(FitMovedPart, OnlyALoneReadingFarOffDoesNotCount) {
     return step ? step->size_mm : 0.0;
   };
   ASSERT_NEAR(step_mm(0, {}), 4e-3, 5e-4);  // u of a mean of 3 turns: 7e-5 mm
-  for (const std::size_t at : {std::size_t{500}, std::size_t{900}}) {
+  for (const std::size_t at : {std::size_t{0}, std::size_t{300}, std::size_t{700}}) {
     ASSERT_GT(step_mm(at, {0.015, 0.015}), 0.0);
     EXPECT_NE(step_mm(at, {0.015, 0.015}), step_mm(at, {0.016, 0.015})) << at;
     EXPECT_NE(step_mm(at, {0.015, 0.015}), step_mm(at, {0.015, 0.016})) << at;

@@ -138,5 +138,27 @@ TEST(InferDictionary, IndependentTestsAreThoseOfTheEigenvalues) {
   EXPECT_NEAR(independent(0.6), 2.0, 1e-12);
 }
 
+// In the phase that shows it least λ of a size is its square times the least eigenvalue of the
+// columns after the base, over the variance; in whatever unit the size is.
+TEST(InferDictionary, ADetectableSizeIsFoundOnceInTwo) {
+  constexpr double variance = 2.0;
+  for (const double unit : {1e-3, 1.0, 1e3}) {
+    Measurement one(27, 4);
+    one.list[1].columns *= unit, one.list[1].largest = 10.0 / unit;
+    const Dictionary dictionary = one.dictionary();
+    const SearchOptions options{0.01, dictionary.tests()};
+    const Detection detection(dictionary, {}, variance, options);
+    const Eigen::MatrixXd after =
+        one.list[1].columns - one.base * one.base.colPivHouseholderQr().solve(one.list[1].columns);
+    const Eigen::Matrix2d gram = after.transpose() * after;
+    const double least = gram.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+    EXPECT_NEAR(detection.lambda(1), least / variance, 1e-9 * least);
+    const double size = detection.detectable_size(1);
+    EXPECT_NEAR(detection.power(1, size), 0.5, 1e-6);
+    EXPECT_GT(detection.power(1, 1.1 * size), 0.55);
+    EXPECT_NEAR(detection.power(1, 0.0), options.effects().single_level(0.01), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis::infer
