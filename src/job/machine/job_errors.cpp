@@ -50,13 +50,15 @@ ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) 
   CalibrationOptions options;
   options.errors = job.known;
   options.counts_held = true;
-  if (explained)
-    for (const MachineFinding& found : diagnosis.findings)
+  if (explained) {
+    for (const MachineFinding& found : diagnosis.findings) {
       if (is_sure(found))
         options.errors.terms.insert(options.errors.terms.end(), found.errors.begin(),
                                     found.errors.end());
       else
         add_errors_of_class(diagnosis, found, options.polynomials);
+    }
+  }
   ErrorModel errors = calibrate(job.machine, job.data, options).errors;
   if (!explained) return errors;
   if (std::ranges::any_of(diagnosis.findings,
