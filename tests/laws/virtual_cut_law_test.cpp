@@ -226,7 +226,9 @@ TEST(VirtualCutLaw, ArcsWithRotaryAxesThatTurnAreStatedAsTheControlFindsThem) {
       EXPECT_NEAR(before.off_between.value, result.between_before.value,
                   0.02 * before.off_between.value);
       EXPECT_NEAR(cut.off_between.value, result.between_after.value, 0.02 * cut.off_between.value);
-      if (tolerance_mm > 0.0) EXPECT_LT(cut.off_between.value, 1.01 * tolerance_mm);
+      if (tolerance_mm > 0.0) {
+        EXPECT_LT(cut.off_between.value, 1.01 * tolerance_mm);
+      }
     }
   });
 }
