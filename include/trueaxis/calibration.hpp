@@ -100,6 +100,8 @@ struct CalibrationOptions {
   /// The covariance of `errors` counts the location errors that are held, too: they are as large as
   /// machines have them (Eq. 330). Parameters and their u presuppose what is held either way.
   bool counts_held = false;
+  /// Errors of rotary axes that may be a polynomial over what was read as well as harmonics.
+  std::vector<ErrorName> polynomials;
 };
 
 enum class NoiseBasis { none, stated, residuals };

@@ -27,8 +27,8 @@ enum class RotaryUse {
 struct CompensationOptions {
   CompensationMethod method = CompensationMethod::exact;
   RotaryUse rotary = RotaryUse::moved;
-  /// How far the actual tip may be from the line between the nominal ends of a G1 block, which is
-  /// cut in pieces for it; not given: blocks stay whole.
+  /// How far the actual tip may be from the line between the nominal ends of a G1 block, or from an
+  /// arc. Blocks and chords are cut in pieces for it; not given: they stay whole.
   std::optional<double> tolerance_mm{};
   /// How far the chords that G2 and G3 are replaced by may be from the arc; not given: refused.
   std::optional<double> arc_tolerance_mm{};
@@ -74,6 +74,7 @@ struct ProgramEnd {
   bool continues = false;  ///< begins where the move before it ends
   bool along_tip = false;  ///< between its ends the tip and the rotary axes go evenly, not all axes
   AxisPositions commanded{}, written{};
+  std::optional<AxisPositions> middle;  ///< commanded half way, of a chord of an arc: on the arc
   Setting setting;
 };
 
@@ -82,7 +83,8 @@ struct ProgramCompensation {
   std::size_t blocks_read = 0, blocks_moved = 0, blocks_rewritten = 0, blocks_inserted = 0;
   std::array<LargestInProgram, axis_count> largest_change{};  ///< of the words of an axis
   LargestToolError before, after;                             ///< at the ends of blocks, as written
-  /// Of the actual tip from the line between the nominal ends of G1 blocks.
+  /// Of the actual tip from the line between the nominal ends of G1 blocks, or from the way of the
+  /// nominal machine on an arc.
   LargestInProgram between_before, between_after;
   LargestInProgram about_tool_axis;  ///< left about the tool's own axis
   std::array<LargestInProgram, axis_count> exact_minus_differential{};

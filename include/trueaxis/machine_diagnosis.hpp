@@ -61,6 +61,10 @@ using MachineTerm = std::variant<std::monostate, ErrorOfPosition, ErrorOfSense, 
 /// by.
 bool is_machine_error(const MachineTerm& term);
 
+/// Whether the readings hold the form of it. Errors of a rotary axis are harmonics (Eq. 210): over
+/// a part of a revolution a polynomial is the nearest form, and others fit as well.
+bool form_is_sure(const MachineTerm& term);
+
 /// The axis whose position, sense or read-out it is a function of; none: of the time or the row.
 std::optional<AxisName> axis_of(const MachineTerm& term);
 

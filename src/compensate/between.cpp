@@ -15,15 +15,6 @@ namespace {
 constexpr std::size_t most_pieces = 10000;
 constexpr int most_rounds = 50;
 
-Vector3 mix(const Vector3& a, const Vector3& b, double s) {
-  return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
-}
-AxisPositions mix(const AxisPositions& a, const AxisPositions& b, double s) {
-  AxisPositions out;
-  for (std::size_t k = 0; k < axis_count; ++k) out[k] = a[k] + s * (b[k] - a[k]);
-  return out;
-}
-
 }  // namespace
 
 BlockPath::BlockPath(const CompensationTask& task, const nc::Move& move, const BlockEnd& from,
@@ -35,56 +26,35 @@ BlockPath::BlockPath(const CompensationTask& task, const nc::Move& move, const B
       setting_(task.axes.setting(move.modal)),
       same_setting_(same_setting),
       held_(held),
-      start_mm_(same_setting ? from.tip_mm : task.model.nominal(from.commanded, setting_).tip_mm),
-      end_mm_(to.tip_mm) {}
-
-Vector3 BlockPath::tip_at(double s) const { return mix(start_mm_, end_mm_, s); }
+      nominal_(task, move, from.commanded,
+               same_setting ? from.tip_mm : task.model.nominal(from.commanded, setting_).tip_mm,
+               to) {}
 
 /// From axes to axes, as a control goes: its axes go evenly, or the tip and the rotary axes do.
-struct BlockPath::Way {
-  AxisPositions from, to;
-  bool along_tip = false;
-  Vector3 tip_from_mm{}, tip_to_mm{};  ///< nominal, where the tip goes evenly
-};
-
-BlockPath::Way BlockPath::way(const AxisPositions& from, const AxisPositions& to) const {
-  Way way{from, to, task_.axes.mode(move_.modal) == ProgramMode::tip, {}, {}};
-  if (!way.along_tip) return way;
-  way.tip_from_mm = task_.model.nominal(from, setting_).tip_mm;
-  way.tip_to_mm = task_.model.nominal(to, setting_).tip_mm;
-  return way;
-}
-
-Vector3 BlockPath::tip_mm(const Way& way, double s, bool nominal) const {
-  AxisPositions axes = mix(way.from, way.to, s);
-  if (way.along_tip)
-    axes = axes_for_tip(task_.model, mix(way.tip_from_mm, way.tip_to_mm, s), axes, setting_)
-               .value_or(axes);
-  return (nominal ? task_.model.nominal(axes, setting_) : task_.model.actual(axes, setting_))
-      .tip_mm;
-}
-
-/// How far two points are from each other across the line.
-double BlockPath::across_mm(const Vector3& a, const Vector3& b) const {
-  return apart_mm(a, b, -INFINITY, INFINITY);
-}
-
-double BlockPath::distance_mm(const Vector3& tip) const {
-  return apart_mm(tip, start_mm_, 0.0, 1.0);
-}
-
-double BlockPath::apart_mm(const Vector3& a, const Vector3& b, double low, double high) const {
-  Vector3 along, off;
-  double length = 0.0, projected = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    along[i] = end_mm_[i] - start_mm_[i];
-    off[i] = a[i] - b[i];
-    length += along[i] * along[i];
-    projected += along[i] * off[i];
+class BlockPath::ControlWay {
+ public:
+  ControlWay(const BlockPath& path, const Stretch& on)
+      : path_(path),
+        on_(on),
+        along_tip_(path.task_.axes.mode(path.move_.modal) == ProgramMode::tip) {
+    if (!along_tip_) return;
+    tip_from_mm_ = path.task_.model.nominal(on.from, path.setting_).tip_mm;
+    tip_to_mm_ = path.task_.model.nominal(on.to, path.setting_).tip_mm;
   }
-  const double s = length > 0.0 ? std::clamp(projected / length, low, high) : 0.0;
-  return std::hypot(off[0] - s * along[0], off[1] - s * along[1], off[2] - s * along[2]);
-}
+  AxisPositions axes_at(double s) const {
+    if (on_.motion == Motion::arc) return path_.nominal_.axes_at(s);
+    AxisPositions axes = mix(on_.from, on_.to, s);
+    if (!along_tip_) return axes;
+    return axes_for_tip(path_.task_.model, mix(tip_from_mm_, tip_to_mm_, s), axes, path_.setting_)
+        .value_or(axes);
+  }
+
+ private:
+  const BlockPath& path_;
+  const Stretch& on_;
+  bool along_tip_;
+  Vector3 tip_from_mm_{}, tip_to_mm_{};  ///< nominal, where the tip goes evenly
+};
 
 namespace {
 
@@ -116,27 +86,35 @@ double beside_parabola_mm(const AxisPositions& from, const AxisPositions& to,
 
 }  // namespace
 
-double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& to,
-                               const Vector3& from_tip_mm, const Vector3& to_tip_mm,
-                               double of_interest_mm, bool nominal) const {
-  const Way on = way(from, to);
-  const double parts = parts_of(from, to, task_.bends);
+double BlockPath::deviation_mm(const Stretch& on, double of_interest_mm) const {
+  const ControlWay way(*this, on);
+  const auto tip_mm = [&](double s) {
+    const AxisPositions axes = way.axes_at(s);
+    return (on.motion == Motion::nominal ? task_.model.nominal(axes, setting_)
+                                         : task_.model.actual(axes, setting_))
+        .tip_mm;
+  };
+  const auto off_nominal_mm = [&](const Vector3& tip, double s) {
+    return nominal_.distance_mm(tip, std::lerp(on.begin, on.end, s));
+  };
+  const double parts = parts_of(on.from, on.to, task_.bends);
   const auto looks = 2 * static_cast<std::size_t>(std::ceil(std::clamp(parts, 2.0, 500.0)));
-  const bool is_even = parts <= 0.5;
-  const double off_from_mm = distance_mm(from_tip_mm), off_to_mm = distance_mm(to_tip_mm);
+  const bool is_even = parts <= 0.5 && !nominal_.is_arc();
+  const double off_from_mm = off_nominal_mm(on.from_tip_mm, 0.0),
+               off_to_mm = off_nominal_mm(on.to_tip_mm, 1.0);
   Vector3 middle{};
   if (is_even) {
-    middle = tip_mm(on, 0.5, nominal);
-    const double bow_mm = across_mm(middle, mix(from_tip_mm, to_tip_mm, 0.5));
+    middle = tip_mm(0.5);
+    const double bow_mm = nominal_.across_mm(middle, mix(on.from_tip_mm, on.to_tip_mm, 0.5));
     const double ends_mm = std::max(off_from_mm, off_to_mm);
-    const double seen_mm = std::max(ends_mm, distance_mm(middle));
-    const double most_mm = ends_mm + bow_mm + beside_parabola_mm(from, to, task_.bends);
+    const double seen_mm = std::max(ends_mm, off_nominal_mm(middle, 0.5));
+    const double most_mm = ends_mm + bow_mm + beside_parabola_mm(on.from, on.to, task_.bends);
     if (most_mm < of_interest_mm || most_mm <= 1.01 * seen_mm) return seen_mm;
   }
   const auto off_mm = [&](double s) {
     if (s == 0.0) return off_from_mm;
     if (s == 1.0) return off_to_mm;
-    return distance_mm(s == 0.5 && is_even ? middle : tip_mm(on, s, nominal));
+    return off_nominal_mm(s == 0.5 && is_even ? middle : tip_mm(s), s);
   };
   return LargestOnWay(off_mm, looks).value(of_interest_mm);
 }
@@ -144,43 +122,47 @@ double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& t
 double BlockPath::deviation_before_mm(double of_interest_mm) const {
   const auto& from_tip_mm =
       same_setting_ ? from_.actual_mm : task_.model.actual(from_.commanded, setting_).tip_mm;
-  return deviation_mm(from_.commanded, to_.commanded, from_tip_mm, to_.actual_mm, of_interest_mm);
+  return deviation_mm({from_.commanded, to_.commanded, from_tip_mm, to_.actual_mm,
+                       nominal_.is_arc() ? Motion::arc : Motion::even},
+                      of_interest_mm);
 }
 double BlockPath::deviation_nominal_mm() const {
-  return deviation_mm(from_.commanded, to_.commanded, start_mm_, end_mm_, 0.0, true);
+  return deviation_mm(
+      {from_.commanded, to_.commanded, nominal_.start_mm(), nominal_.end_mm(), Motion::nominal},
+      0.0);
 }
 Vector3 BlockPath::written_from_mm() const {
   return same_setting_ ? from_.written_mm : task_.model.actual(from_.written, setting_).tip_mm;
 }
 double BlockPath::deviation_after_mm(double of_interest_mm) const {
-  return deviation_mm(from_.written, to_.written, written_from_mm(), to_.written_mm,
+  return deviation_mm({from_.written, to_.written, written_from_mm(), to_.written_mm},
                       of_interest_mm);
 }
 
 BlockPath::Pieces BlockPath::cut(const std::vector<double>& ends, double of_interest_mm,
                                  Tally& tally) const {
   Pieces pieces;
-  AxisPositions last = from_.written;
-  Vector3 last_mm = written_from_mm();
+  Stretch piece{from_.written, to_.written, written_from_mm(), to_.written_mm};
   for (const double s : ends) {
+    piece.end = s;
     if (s >= 1.0) break;
-    const AxisPositions even = mix(from_.commanded, to_.commanded, s);
-    const AxisPositions nominal =
-        axes_for_tip(task_.model, tip_at(s), even, setting_).value_or(even);
-    const CompensatedPosition position = compensate_position(task_, nominal, setting_, held_);
+    const CompensatedPosition position =
+        compensate_position(task_, nominal_.axes_at(s), setting_, held_);
     if (!is_reached(position, task_.line_of(move_), tally)) return {{}, {}, false};
     pieces.words.push_back(
         task_.axes.words(move_.words, to_.commanded, position.axes, move_.modal));
-    const AxisPositions written =
+    piece.to =
         task_.axes.positions(nc::as_written(move_, pieces.words.back(), task_.write), move_.modal)
             .value_or(position.axes);
-    const Vector3 tip_mm = task_.model.actual(written, setting_).tip_mm;
-    pieces.deviation_mm.push_back(deviation_mm(last, written, last_mm, tip_mm, of_interest_mm));
-    last = written;
-    last_mm = tip_mm;
+    piece.to_tip_mm = task_.model.actual(piece.to, setting_).tip_mm;
+    pieces.deviation_mm.push_back(deviation_mm(piece, of_interest_mm));
+    piece.from = piece.to;
+    piece.from_tip_mm = piece.to_tip_mm;
+    piece.begin = s;
   }
-  pieces.deviation_mm.push_back(
-      deviation_mm(last, to_.written, last_mm, to_.written_mm, of_interest_mm));
+  piece.to = to_.written;
+  piece.to_tip_mm = to_.written_mm;
+  pieces.deviation_mm.push_back(deviation_mm(piece, of_interest_mm));
   return pieces;
 }
 
@@ -220,8 +202,9 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
                                              Tally& tally) const {
   if (deviation_mm <= tolerance_mm) return {};
   const bool must_be_equal = move_.modal.feed_mode == nc::FeedMode::inverse_time;
-  const double off_at_start_mm = distance_mm(written_from_mm());
-  const double off_at_ends_mm = std::max(off_at_start_mm, distance_mm(to_.written_mm));
+  const double off_at_start_mm = nominal_.distance_mm(written_from_mm(), 0.0);
+  const double off_at_ends_mm =
+      std::max(off_at_start_mm, nominal_.distance_mm(to_.written_mm, 1.0));
   std::vector<double> ends{1.0}, deviations_mm{deviation_mm};
   for (int i = 0; i < most_rounds && off_at_ends_mm <= tolerance_mm; ++i) {
     double asked = 0.0;

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "compensate/block_end.hpp"
+#include "compensate/nominal_way.hpp"
 
 namespace trueaxis {
 
-/// The way of a G1 block: what the control makes between its ends, where the tip then really is
-/// (Bohez's interpolation error), and the pieces that keep it near the line of the nominal tip.
+/// The way of a G1 block or of a chord: what the control makes between its ends, where the tip then
+/// really is (Bohez's interpolation error), and the pieces that keep it near the nominal way.
 class BlockPath {
  public:
   /// @param same_setting program frame and tool are those of the move before
@@ -16,9 +17,9 @@ class BlockPath {
   BlockPath(const CompensationTask& task, const nc::Move& move, const BlockEnd& from,
             const BlockEnd& to, bool same_setting, const HeldAxes& held);
 
-  /// Largest distance of the actual tip from the line between the nominal ends, for the program as
-  /// it was read, and as it is written in one piece. It is right to a hundredth if above
-  /// `of_interest_mm`, else not more than that.
+  /// Largest distance of the actual tip from the nominal way, for the program as it was read, and
+  /// as it is written in one piece. On an arc the program that was read goes as its control does.
+  /// It is right to a hundredth if above `of_interest_mm`, else not more than that.
   double deviation_before_mm(double of_interest_mm) const;
   double deviation_after_mm(double of_interest_mm) const;
   /// The same of the program as it was read on a machine without errors.
@@ -37,17 +38,19 @@ class BlockPath {
     bool reached = true;
   };
   Pieces cut(const std::vector<double>& ends, double of_interest_mm, Tally& tally) const;
-  double deviation_mm(const AxisPositions& from, const AxisPositions& to,
-                      const Vector3& from_tip_mm, const Vector3& to_tip_mm, double of_interest_mm,
-                      bool nominal = false) const;
-  double distance_mm(const Vector3& tip) const;
-  double across_mm(const Vector3& a, const Vector3& b) const;
-  double apart_mm(const Vector3& a, const Vector3& b, double low, double high) const;
-  struct Way;
-  Way way(const AxisPositions& from, const AxisPositions& to) const;
-  Vector3 tip_mm(const Way& way, double s, bool nominal) const;
+  /// How the control goes: its axes or the tip evenly, on the machine with errors or without, or on
+  /// the arc of which the move is a chord.
+  enum class Motion { even, nominal, arc };
+  /// A way from axes to axes, from `begin` to `end` of the move.
+  struct Stretch {
+    AxisPositions from, to;
+    Vector3 from_tip_mm, to_tip_mm;
+    Motion motion = Motion::even;
+    double begin = 0.0, end = 1.0;
+  };
+  class ControlWay;
+  double deviation_mm(const Stretch& on, double of_interest_mm) const;
   Vector3 written_from_mm() const;
-  Vector3 tip_at(double s) const;
 
   const CompensationTask& task_;
   const nc::Move& move_;
@@ -55,7 +58,7 @@ class BlockPath {
   Setting setting_;
   bool same_setting_;
   HeldAxes held_;
-  Vector3 start_mm_{}, end_mm_{};  ///< nominal tips, in the frame of the block
+  NominalWay nominal_;
 };
 
 }  // namespace trueaxis

@@ -218,10 +218,14 @@ class NewProgram {
     out.ends.reserve(moves_.size());
     for (std::size_t i = 0; i < moves_.size(); ++i) {
       if (!ends_[i].reached) continue;
-      const nc::ModalState& modal = moves_[i].modal;
-      out.ends.push_back({task_.line_of(moves_[i]), modal.motion == nc::Motion::rapid,
-                          moves_[i].continues, task_.axes.mode(modal) == ProgramMode::tip,
-                          ends_[i].commanded, ends_[i].written, task_.axes.setting(modal)});
+      const nc::Move& move = moves_[i];
+      const nc::ModalState& modal = move.modal;
+      std::optional<AxisPositions> middle;
+      if (move.arc != nc::Move::no_arc)
+        middle = task_.axes.positions(task_.program.arcs[move.arc].after(move.chord + 0.5), modal);
+      out.ends.push_back({task_.line_of(move), modal.motion == nc::Motion::rapid, move.continues,
+                          task_.axes.mode(modal) == ProgramMode::tip, ends_[i].commanded,
+                          ends_[i].written, middle, task_.axes.setting(modal)});
     }
   }
 

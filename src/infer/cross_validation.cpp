@@ -16,8 +16,6 @@ struct HeldOutBlock {
   double before = 0.0, after = 0.0, rows = 0.0;
 };
 
-double root_mean(double sum, double rows) { return rows > 0.0 ? std::sqrt(sum / rows) : 0.0; }
-
 /// Percentiles of a statistic over resampled blocks .
 template <typename Statistic>
 Interval interval(std::span<const HeldOutBlock> blocks, Statistic statistic) {
@@ -55,9 +53,9 @@ void cross_validate(const Eigen::MatrixXd& total, std::span<const Fold> folds,
   }
   if (blocks.empty()) return;
   out.held_out_before_mm =
-      interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.before, b.rows); });
+      interval(blocks, [](const HeldOutBlock& b) { return std::sqrt(b.before / b.rows); });
   out.held_out_after_mm =
-      interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.after, b.rows); });
+      interval(blocks, [](const HeldOutBlock& b) { return std::sqrt(b.after / b.rows); });
   out.held_out_ratio = interval(blocks, [](const HeldOutBlock& b) {
     return b.before > 0.0 ? std::sqrt(b.after / b.before) : 1.0;
   });

@@ -50,7 +50,8 @@ double Family::single_level(double level) const { return std::exp(-0.5 * thresho
 
 double detection_power(double lambda, double rank, double freedom, double single_p) {
   using namespace boost::math;
-  if (freedom < 1.0) return 0.0;  // its p-value is 1 (`log_p_value`)
+  if (freedom < 1.0) return 0.0;       // its p-value is 1 (`log_p_value`)
+  if (lambda == 0.0) return single_p;  // where the complement of Boost's noncentral F is wrong
   if (std::isinf(freedom)) {
     const double threshold = quantile(complement(chi_squared(rank), single_p));
     if (lambda > surely_found * threshold) return 1.0;

@@ -57,48 +57,55 @@ std::optional<Point> centre_of(const Arc& arc, Point from, Point to, PlaneAxes p
 
 }  // namespace
 
-std::vector<AxisValues> chords_of(const Arc& arc, double tolerance_mm, std::string& trouble) {
+std::optional<ArcWay> ArcWay::of(const Arc& arc, double tolerance_mm, std::string& trouble) {
   const PlaneAxes plane = axes_of(arc.plane);
   const Point from{arc.from[plane.u], arc.from[plane.v]}, to{arc.to[plane.u], arc.to[plane.v]};
   const std::optional<Point> centre = centre_of(arc, from, to, plane, trouble);
-  if (!centre) return {};
-  const double r0 = std::hypot(from.u - centre->u, from.v - centre->v);
-  const double r1 = std::hypot(to.u - centre->u, to.v - centre->v);
-  if (std::abs(r1 - r0) > largest_radius_gap_mm || r0 == 0.0) {
-    trouble = "the arc's ends are not at one distance from its centre: " + std::to_string(r0) +
-              " mm and " + std::to_string(r1) + " mm";
-    return {};
+  if (!centre) return std::nullopt;
+  ArcWay way;
+  way.from_ = arc.from, way.to_ = arc.to;
+  way.u_ = plane.u, way.v_ = plane.v;
+  way.centre_u_ = centre->u, way.centre_v_ = centre->v;
+  way.from_radius_ = std::hypot(from.u - centre->u, from.v - centre->v);
+  way.to_radius_ = std::hypot(to.u - centre->u, to.v - centre->v);
+  if (std::abs(way.to_radius_ - way.from_radius_) > largest_radius_gap_mm ||
+      way.from_radius_ == 0.0) {
+    trouble = "the arc's ends are not at one distance from its centre: " +
+              std::to_string(way.from_radius_) + " mm and " + std::to_string(way.to_radius_) +
+              " mm";
+    return std::nullopt;
   }
-  const double start = std::atan2(from.v - centre->v, from.u - centre->u);
+  way.start_rad_ = std::atan2(from.v - centre->v, from.u - centre->u);
   const double sense = arc.clockwise ? -1.0 : 1.0;
-  double turn = sense * (std::atan2(to.v - centre->v, to.u - centre->u) - start);
+  double turn = sense * (std::atan2(to.v - centre->v, to.u - centre->u) - way.start_rad_);
   // A turn of nothing is a full circle.
   const double nothing = 1e-9;
   while (turn <= nothing) turn += 2.0 * pi;
   while (turn > 2.0 * pi + nothing) turn -= 2.0 * pi;
+  way.turn_rad_ = sense * turn;
   // Height of a chord's arc over it: r (1 - cos(step / 2)) = 2 r sin²(step / 4).
-  const double radius = std::max(r0, r1);
+  const double radius = std::max(way.from_radius_, way.to_radius_);
   const double sine = std::min(std::sqrt(0.5 * tolerance_mm / radius), std::sin(0.125 * pi));
   const double chords = std::max(1.0, std::ceil(turn / (4.0 * std::asin(sine)) - nothing));
   if (!(chords <= most_chords_of_arc)) {
     trouble = "the arc of radius " + std::to_string(radius) +
               " mm takes more than 1000000 chords at this tolerance: correct R or the centre, or "
               "raise the tolerance";
-    return {};
+    return std::nullopt;
   }
-  const auto count = static_cast<std::size_t>(chords);
-  std::vector<AxisValues> points;
-  for (std::size_t i = 1; i < count; ++i) {
-    const double s = static_cast<double>(i) / static_cast<double>(count);
-    const double angle = start + sense * s * turn, r = r0 + s * (r1 - r0);
-    AxisValues point;
-    for (std::size_t k = 0; k < axis_count; ++k)
-      point[k] = arc.from[k] + s * (arc.to[k] - arc.from[k]);
-    point[plane.u] = centre->u + r * std::cos(angle);
-    point[plane.v] = centre->v + r * std::sin(angle);
-    points.push_back(point);
-  }
-  return points;
+  way.chords_ = static_cast<std::uint32_t>(chords);
+  return way;
+}
+
+AxisValues ArcWay::after(double chords) const {
+  const double s = chords / static_cast<double>(chords_);
+  const double angle = start_rad_ + s * turn_rad_;
+  const double radius = from_radius_ + s * (to_radius_ - from_radius_);
+  AxisValues words;
+  for (std::size_t k = 0; k < axis_count; ++k) words[k] = from_[k] + s * (to_[k] - from_[k]);
+  words[u_] = centre_u_ + radius * std::cos(angle);
+  words[v_] = centre_v_ + radius * std::sin(angle);
+  return words;
 }
 
 }  // namespace trueaxis::nc

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "nc/axes.hpp"
 #include "nc/modal.hpp"
@@ -22,8 +22,23 @@ struct Arc {
   std::optional<double> radius_mm{};
 };
 
-/// Points within an arc, so that its chords stay within `tolerance_mm` of it; the ends are not
-/// among them. If it is not an arc, `trouble` says why and what to do.
-std::vector<AxisValues> chords_of(const Arc& arc, double tolerance_mm, std::string& trouble);
+/// The way of an arc, and in how many chords it goes.
+class ArcWay {
+ public:
+  /// By as many chords as stay within `tolerance_mm` of it. If it is not an arc, `trouble` says why
+  /// and what to do.
+  static std::optional<ArcWay> of(const Arc& arc, double tolerance_mm, std::string& trouble);
+
+  std::uint32_t chords() const { return chords_; }
+  /// Words after `chords` of them, which may end within a chord.
+  AxisValues after(double chords) const;
+
+ private:
+  AxisValues from_{}, to_{};
+  std::size_t u_ = 0, v_ = 1;
+  double centre_u_ = 0.0, centre_v_ = 0.0, from_radius_ = 0.0, to_radius_ = 0.0;
+  double start_rad_ = 0.0, turn_rad_ = 0.0;
+  std::uint32_t chords_ = 1;
+};
 
 }  // namespace trueaxis::nc

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "nc/arc.hpp"
 #include "nc/axes.hpp"
 #include "nc/lexer.hpp"
 #include "nc/modal.hpp"
@@ -32,11 +33,13 @@ struct ReadOptions {
 /// A move to a position: a block with axis words under G0 or G1, a chord of an arc, or one of the
 /// moves of a canned cycle.
 struct Move {
-  static constexpr std::uint32_t no_dwell = 0xFFFFFFFF;
+  static constexpr std::uint32_t no_dwell = 0xFFFFFFFF, no_arc = 0xFFFFFFFF;
   std::uint32_t line = 0;  ///< index in Program::lines
   /// A chord that ends within its arc, or a move of a cycle after its first: it has no block yet.
   bool inserted = false;
   bool cycle = false;              ///< of a canned cycle; `modal` has G0 or G1
+  std::uint32_t arc = no_arc;      ///< index in Program::arcs of the arc that it is a chord of
+  std::uint32_t chord = 0;         ///< which one of it
   std::uint32_t dwell = no_dwell;  ///< index of the P of a dwell after it (G82) in Program::words
   bool continues = false;          ///< begins where the move before it in Program::moves ended
   /// Its block puts something into force (G1, F, S, M3) that a line before it would need.
@@ -54,6 +57,7 @@ struct Program {
   std::vector<Line> lines;
   std::vector<Word> words;
   std::vector<Move> moves;
+  std::vector<ArcWay> arcs;
   std::array<AxisValues, 6> zeros{};  ///< ReadOptions::zeros
   AxisValues start_words{};           ///< ReadOptions::start; NaN where it is not known
   std::size_t blocks = 0;             ///< lines with a word

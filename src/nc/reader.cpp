@@ -273,7 +273,8 @@ class Reader {
            block_.word('H') != nullptr;
   }
 
-  void add_chords(const Word& first, Move made, const AxisValues& from, bool known) {
+  /// The chords of an arc before its last, which is `made`.
+  void add_chords(const Word& first, Move& made, const AxisValues& from, bool known) {
     if (!known) return complain(first, "an arc from a position that is not known");
     Arc arc{from, words_, state_.plane, state_.motion == Motion::arc_clockwise, {}, {}};
     const double factor = state_.inch ? mm_per_inch : 1.0;
@@ -281,20 +282,23 @@ class Reader {
       if (const Word* word = block_.word("IJK"[k])) arc.centre_mm[k] = factor * word->number;
     if (const Word* radius = block_.word('R')) arc.radius_mm = factor * radius->number;
     std::string trouble;
-    made.inserted = true;
-    const auto points = chords_of(arc, *options_.arc_tolerance_mm, trouble);
-    chords_ += points.size();
+    const std::optional<ArcWay> way = ArcWay::of(arc, *options_.arc_tolerance_mm, trouble);
+    if (!way) return complain(first, trouble);
+    chords_ += way->chords();
     if (chords_ > most_chords)
       return complain_once(first, told_chords_,
                            "the arcs up to here take more than 10000000 chords: raise their "
                            "tolerance, or cut the program in parts");
-    for (const AxisValues& point : points) {
-      made.words = point;
+    made.arc = static_cast<std::uint32_t>(program_.arcs.size());
+    program_.arcs.push_back(*way);
+    made.inserted = true;
+    for (; made.chord + 1 < way->chords(); ++made.chord) {
+      made.words = way->after(made.chord + 1.0);
       made.continues = continues_;
       program_.moves.push_back(made);
       continues_ = true;
     }
-    if (!trouble.empty()) complain(first, trouble);
+    made.inserted = false;
   }
 
   void take_words() {

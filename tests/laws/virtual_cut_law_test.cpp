@@ -2,6 +2,7 @@
 // Programs of random machines with random errors are compensated and cut on the virtual machine,
 // which has a control, an interpolator and a chain of its own: neither the compensation nor the
 // model of the machine can hide a mistake from it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,11 +38,12 @@ struct CutCase : ProgramCase {
     }
   }
 
-  vm::Cut cut(const std::string& program, const ErrorModel& with, double step_mm = 1.0) const {
+  vm::Cut cut(const std::string& program, const ErrorModel& with, double step_mm = 1.0,
+              double rad_per_mm = 0.01) const {
     vm::CutPlan plan;
     plan.program = program, plan.program_file = "compensated.nc";
     plan.nominal = text, plan.nominal_file = "part.nc";
-    plan.step_mm = step_mm, plan.step_rad = 0.01 * step_mm;
+    plan.step_mm = step_mm, plan.step_rad = rad_per_mm * step_mm;
     return vm::cut(machine, with, plan);
   }
 
@@ -186,9 +188,48 @@ TEST(VirtualCutLaw, ChordsStayWithTheArcsOfTheControl) {
     EXPECT_GT(cut.blocks, 40u);
     EXPECT_LT(cut.off_at_ends.value, 1e-9);
     EXPECT_GT(before.off_at_ends.value, 1e-3);
-    // Chords stay within the tolerance of the arc, and the tip within what the result states of the
-    // chords; with rotary axes that turn, a tenth of the chord's height is as much again.
-    EXPECT_LT(cut.off_between.value, 1.1 * (0.02 + result.between_after.value) + 1e-9);
+    // The other machine looks at few points: it finds no more than what is stated to a hundredth.
+    EXPECT_LE(cut.off_between.value, 1.01 * result.between_after.value + 1e-9);
+    EXPECT_LE(before.off_between.value, 1.01 * result.between_before.value + 1e-9);
+  });
+}
+
+// While an arc of a radius of 5 to 20 mm turns by a quarter, every rotary axis turns by up to half
+// a revolution. What is stated of both programs is what the other machine finds: each is right to
+// a hundredth, the other one by the eight points at least that it looks at in a chord.
+TEST(VirtualCutLaw, ArcsWithRotaryAxesThatTurnAreStatedAsTheControlFindsThem) {
+  each_case([](CutCase one) {
+    one.text = first_lines_of(one.text, 1);
+    const double radius_mm = one.draw.between(5.0, 20.0);
+    std::string from = "G1 X0 Y0 Z0", to = one.draw.whole(0, 1) == 0 ? "G18 G3" : "G17 G2";
+    for (const MachineAxis& axis : one.machine.axes) {
+      if (!is_rotary(axis.name)) continue;
+      from += fmt::format(" {}{:.3f}", letter_of(axis.name), one.draw.between(-60.0, 60.0));
+      to += fmt::format(" {}{:.3f}", letter_of(axis.name), one.draw.between(-120.0, 120.0));
+    }
+    one.text += from + '\n' +
+                fmt::format("{} X{:.4f} {}{:.4f} R{:.4f}\n", to, radius_mm,
+                            to[2] == '8' ? 'Z' : 'Y', radius_mm, radius_mm);
+    CompensationOptions options = fine();
+    options.arc_tolerance_mm = 0.02;
+    for (const double tolerance_mm : {0.0, 0.01}) {
+      SCOPED_TRACE(tolerance_mm);
+      if (tolerance_mm > 0.0) options.tolerance_mm = tolerance_mm;
+      const auto result =
+          compensate_program(MachineModel(one.machine, one.errors), one.text, "p.nc", options);
+      ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
+      const vm::Cut cut = one.cut(result.text, one.errors, 0.06, 0.05),
+                    before = one.cut(one.text, one.errors, 0.5, 0.02);
+      EXPECT_EQ(cut.judged_ends, 2u);
+      EXPECT_GT(cut.blocks, 4u);
+      EXPECT_LT(cut.off_at_ends.value, 1e-9);
+      EXPECT_NEAR(before.off_between.value, result.between_before.value,
+                  0.02 * before.off_between.value);
+      EXPECT_NEAR(cut.off_between.value, result.between_after.value, 0.02 * cut.off_between.value);
+      if (tolerance_mm > 0.0) {
+        EXPECT_LT(cut.off_between.value, 1.01 * tolerance_mm);
+      }
+    }
   });
 }
 

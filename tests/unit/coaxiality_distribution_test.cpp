@@ -104,8 +104,12 @@ TEST(CoaxialityDistribution, IsTheSameEveryTime) {
 // Beyond the last of 2¹⁴ points there is nothing to interpolate.
 TEST(CoaxialityDistribution, EndsAtItsLargestDraw) {
   const Reference r = seat(1e-3, 5e-4);
-  EXPECT_EQ(quantile(r, {}, 1.0), quantile(r, {}, 1.0 - 1e-6));
-  EXPECT_EQ(quantile(r, {}, 0.0), quantile(r, {}, 1e-6));
+  const CoaxialityDistribution distribution({&r, 1}, {}, 0.0, 0.0);
+  const double largest_mm = distribution.quantile(1.0);
+  EXPECT_EQ(largest_mm, distribution.quantile(1.0 - 1e-6));
+  EXPECT_EQ(distribution.within(largest_mm), 1.0);
+  EXPECT_LT(distribution.within(std::nextafter(largest_mm, 0.0)), 1.0);
+  EXPECT_EQ(distribution.quantile(0.0), distribution.quantile(1e-6));
 }
 
 }  // namespace

@@ -36,6 +36,12 @@ TEST(FamilyOfTests, ThresholdsAreThoseOfTheFamily) {
   EXPECT_NEAR((Family{200.0, 3000.0}.threshold(0.01)), 28.0, 1.5);
 }
 
+// p of the least of n tests is 1 − e^(−n p): any level below 1 − e^(−n) has its p.
+TEST(FamilyOfTests, TheSingleLevelIsItsInverse) {
+  for (const double level : {0.01, 0.3, 0.6})
+    EXPECT_NEAR((Family{1.0, 0.0}.single_level(level)), -std::log1p(-level), 1e-12);
+}
+
 TEST(FamilyOfTests, IsMonotone) {
   double before = 0.0;
   for (const double n : {1.0, 2.0, 10.0, 100.0, 1e4, 1e6}) {
@@ -127,6 +133,16 @@ TEST(DetectionPower, IsTheTableOfOneCause) {
     EXPECT_NEAR(detection_power(lambda, 2, Family{1.0, 0.0}, -std::expm1(-0.05)), powers[k], 0.008)
         << amplitudes_um[k];
   }
+}
+
+// The power at λ = 0 is the level, and it goes there: by λ times the slope, below 1 for such
+// levels.
+TEST(DetectionPower, OfNothingIsTheLevel) {
+  for (const double freedom : {3.0, 145.0, infer::known_sigma})
+    for (const double level : {1e-5, 1e-2}) {
+      EXPECT_NEAR(infer::detection_power(0.0, 2.0, freedom, level), level, 1e-9 * level);
+      EXPECT_NEAR(infer::detection_power(1e-9, 2.0, freedom, level), level, 1e-9);
+    }
 }
 
 // Readings that a term uses up to the last leave nothing to test it by: its p-value is 1, so that

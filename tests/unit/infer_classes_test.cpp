@@ -40,5 +40,48 @@ TEST(InferClasses, TheLogarithmOfTheLikelihoodRatioIsOfLeastSquaresWrittenOut) {
   EXPECT_NEAR(found.members.front().rival.log_likelihood_ratio, expected, 1e-10);
 }
 
+// Two waves at right angles, each with a square of 10: the rival cause explains nothing of the
+// named prediction, so its distance is the size of that over σ. A member is near, or the data do
+// not tell.
+TEST(InferClasses, AMemberIsNearOrAsLikely) {
+  Eigen::MatrixXd gram = 10.0 * Eigen::MatrixXd::Identity(3, 3);
+  gram(0, 0) = 1000.0;
+  gram(0, 1) = gram(1, 0) = 50.0;
+  const Projection beside = project(gram, {});
+  constexpr double freedom = 100.0;
+  const Score named = score(beside, {1});
+  const auto is_member = [&](double distance, double twice_log_ratio) {
+    const double left = (1000.0 - named.gain) * std::exp(twice_log_ratio / freedom);
+    const Cause rival{"the other", {2}, 1000.0 - left, named.rank, 0.0};
+    const Eigen::VectorXd coefficient = Eigen::VectorXd::Constant(1, distance / std::sqrt(10.0));
+    return !distinguish(gram, {}, beside, {{1}, coefficient, 0.0}, {&rival, 1}, 1.0, freedom)
+                .members.empty();
+  };
+  EXPECT_TRUE(is_member(0.99 * told_apart, 1.01 * likelihood_tells));
+  EXPECT_TRUE(is_member(1.01 * told_apart, 0.99 * likelihood_tells));
+  EXPECT_FALSE(is_member(1.01 * told_apart, 1.01 * likelihood_tells));
+}
+
+// One that the data tell and that does most of what the named cause does (95 % of it: a tenth of
+// its square is left) may be it where its columns bend; one at right angles may not.
+TEST(InferClasses, OneThatIsToldAndMuchAlikeIsDroppedAsTold) {
+  const auto dropped = [](double alike) {
+    Eigen::MatrixXd gram = 10.0 * Eigen::MatrixXd::Identity(3, 3);
+    gram(0, 0) = 1000.0, gram(0, 1) = gram(1, 0) = 50.0;
+    gram(1, 2) = gram(2, 1) = 10.0 * alike;
+    const Projection beside = project(gram, {});
+    const Cause rival{"the other", {2}, 0.0, 1, 0.0};
+    const Eigen::VectorXd coefficient = Eigen::VectorXd::Constant(1, 5.0);
+    const Class found =
+        distinguish(gram, {}, beside, {{1}, coefficient, 0.0}, {&rival, 1}, 1.0, 100.0);
+    EXPECT_TRUE(found.members.empty());
+    return found.dropped;
+  };
+  EXPECT_TRUE(dropped(0.0).empty());
+  ASSERT_EQ(dropped(0.95).size(), 1U);
+  EXPECT_TRUE(dropped(0.95).front().told);
+  EXPECT_EQ(dropped(0.95).front().probability, 0.0);
+}
+
 }  // namespace
 }  // namespace trueaxis::infer

@@ -237,5 +237,23 @@ TEST(Margin, WithoutPrecompensationTheLagSetsTheSpeed) {
   EXPECT_NEAR(correction.margin.max_speed_rpm, rpm, 0.03 * rpm);
 }
 
+// What is needed is where it begins to be enough: 1 % more set-points than that do, 1 % fewer do
+// not.
+TEST(Margin, TheSetPointsNeededAreWhereTheyBeginToDo) {
+  ToolSetup tool;
+  const auto too_few = [&](double per_revolution) {
+    Actuator actuator;
+    actuator.sampling_hz = per_revolution * tool.speed_rpm / 60.0;
+    Reasons found = make_correction(far_axis(), cylinder(), tool, actuator).margin.breaks;
+    std::erase_if(found, [](const Reason& r) { return r.code != ReasonCode::set_points_too_few; });
+    return found;
+  };
+  const Reasons found = too_few(1.0);
+  ASSERT_EQ(found.size(), 1U);
+  const double needed = found.front().number("needed")->value;
+  EXPECT_EQ(too_few(0.99 * needed).size(), 1U);
+  EXPECT_TRUE(too_few(1.01 * needed).empty());
+}
+
 }  // namespace
 }  // namespace trueaxis

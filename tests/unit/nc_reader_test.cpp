@@ -201,8 +201,9 @@ TEST(NcReader, ChordsOfAFineToleranceStayWithinItToo) {
     std::string trouble;
     Arc arc{.from = {radius_mm}, .to = {radius_mm}, .clockwise = false};
     arc.centre_mm[0] = -radius_mm;
-    const double chords = 1.0 + static_cast<double>(chords_of(arc, tolerance_mm, trouble).size());
-    EXPECT_EQ(trouble, "");
+    const auto way = ArcWay::of(arc, tolerance_mm, trouble);
+    ASSERT_TRUE(way) << trouble;
+    const double chords = way->chords();
     const auto height_mm = [&](double count) {
       const double sine = std::sin(0.25 * two_pi / count);
       return 2.0 * radius_mm * sine * sine;
@@ -218,12 +219,13 @@ TEST(NcReader, AnArcOfMoreChordsThanAProgramHoldsIsRefused) {
   round.centre_mm[0] = -1e9;
   for (const double tolerance_mm : {1e-4, 1e-8, 1e-300}) {
     std::string trouble;
-    EXPECT_TRUE(chords_of(round, tolerance_mm, trouble).empty());
+    EXPECT_FALSE(ArcWay::of(round, tolerance_mm, trouble));
     EXPECT_NE(trouble.find("more than 1000000 chords"), std::string::npos) << tolerance_mm;
   }
   std::string trouble;
-  EXPECT_LE(chords_of(arc, 1e-4, trouble).size(), 1U);  // a straight line, nearly
-  EXPECT_EQ(trouble, "");
+  const auto way = ArcWay::of(arc, 1e-4, trouble);
+  ASSERT_TRUE(way) << trouble;
+  EXPECT_LE(way->chords(), 2U);  // a straight line, nearly
   ReadOptions options = xyzac();
   options.arc_tolerance_mm = 1e-8;
   EXPECT_EQ(places("G0 X0 Y0 Z0 A0 C0\nG2 I-100000000 F100\n", options), "2:4");

@@ -64,7 +64,11 @@ TEST(OwnSurface, ReadingsThatItDoesNotKnowAreRefused) {
   ProbeStream stream = tilted_cone();
   FitOptions options;
   options.profile = std::make_shared<Conical>();
-  stream.ball_radius_mm = 1.0;
+  EXPECT_NO_THROW(fit(stream, options));
+  options.ball_radius_mm = 0.5;
+  EXPECT_THROW(fit(stream, options), InputError);
+  options.ball_radius_mm = 0.0;
+  stream.ball_radius_mm = 0.5;
   EXPECT_THROW(fit(stream, options), InputError);
 }
 

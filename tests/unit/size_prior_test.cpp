@@ -126,5 +126,45 @@ TEST(SizePrior, CountsTheFreedomThatIsLeft) {
   EXPECT_EQ(counted.mean(0), stated.mean(0));
 }
 
+// Three spreads above a median of 0.5 are 0.5 e³ = 10.04, where ln of the scale has a spread of 1.
+TEST(SizePrior, ASizeBeyondThreeSpreadsIsExtraordinary) {
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_FALSE(weighed(1e6, sign * 9.8, 0.5, 1.0).extraordinary);
+    EXPECT_TRUE(weighed(1e6, sign * 10.3, 0.5, 1.0).extraordinary);
+    EXPECT_FALSE(weighed(1e6, sign * 10.3, 0.0, 1.0).extraordinary);  // no size is known
+  }
+}
+
+// 95 % of a normal law lie within 2 × 1.96 of its standard deviation.
+TEST(SizePrior, TheSpreadIsThatOfARangeAndNeverSharperThanAHandbook) {
+  EXPECT_NEAR(infer::spread_of_size(10.0), 10.0 / (2.0 * 1.959964), 1e-4);
+  EXPECT_EQ(infer::spread_of_size(0.0), 0.7);
+}
+
+// A statement that is wrong with probability d: its likelihood counts 1 − d, that of a typical size
+// d. The criterion is −2 ln of the likelihood, and the mean is weighed by it.
+TEST(SizePrior, AStatedSizeThatIsDoubtedIsAMixture) {
+  const double gram = 40.0, a_hat = 0.9, rss = 1e6 + gram * a_hat * a_hat;
+  const auto of = [&](double stated, double doubt) {
+    SizePrior prior{Eigen::VectorXd::Constant(1, 0.5), 1.0};
+    prior.stated = stated, prior.doubt = doubt;
+    return weigh(prior, Eigen::MatrixXd::Constant(1, 1, gram),
+                 Eigen::VectorXd::Constant(1, gram * a_hat), Eigen::VectorXd::Constant(1, gram),
+                 rss, 1e6 + 1.0);
+  };
+  const Weighed typical = of(0.0, 1.0), stated = of(0.2, 0.0);
+  // A normal prior of 0.2 medians alone: its variance is 1 + gram s² times that of the posterior.
+  const double s2 = 0.1 * 0.1, wider = 1.0 + gram * s2;
+  EXPECT_NEAR(stated.mean(0), a_hat * gram * s2 / wider, 1e-5);
+  EXPECT_NEAR(stated.criterion, std::log(wider) - gram * a_hat * a_hat * gram * s2 / wider, 1e-3);
+  for (const double doubt : {0.05, 0.5}) {
+    const Weighed both = of(0.2, doubt);
+    const double a = (1.0 - doubt) * std::exp(-0.5 * stated.criterion);
+    const double b = doubt * std::exp(-0.5 * typical.criterion);
+    EXPECT_NEAR(both.criterion, -2.0 * std::log(a + b), 1e-8);
+    EXPECT_NEAR(both.mean(0), (a * stated.mean(0) + b * typical.mean(0)) / (a + b), 1e-8);
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis::diagnose_detail

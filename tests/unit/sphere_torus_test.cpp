@@ -10,6 +10,8 @@
 
 #include "associate/files/stream_association.hpp"
 #include "job/evidence.hpp"
+#include "surface/catalogue.hpp"
+#include "surface/surface.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -110,6 +112,46 @@ TEST(Torus, GrooveAndBeadOfShaftAndBore) {
         EXPECT_NEAR(number.value, found.parameter(number.name).value, 10 * rounding_mm)
             << number.name;
     }
+}
+
+// Lengths below 1 mm are lengths as others.
+TEST(SphereTorus, AreFoundHoweverSmall) {
+  FitOptions options;
+  options.surface = SurfaceKind::sphere;
+  const FitResult ball = fit(sphere(0.6), options);
+  ASSERT_EQ(ball.status, FitStatus::converged) << ball.message;
+  EXPECT_NEAR(ball.parameter("radius").value, 0.6, 10 * rounding_mm);
+  options.surface = SurfaceKind::torus;
+  for (const bool inner : {false, true}) {
+    const FitResult groove = fit(torus(30.0, 0.3, inner), options);
+    ASSERT_EQ(groove.status, FitStatus::converged) << groove.message;
+    EXPECT_NEAR(groove.parameter("minor_radius").value, 0.3, 100 * rounding_mm);
+  }
+}
+
+// The line past the centre by a height is that through a sphere which is moved the other way.
+// Central differences: h² of lengths of 0.6 mm at a depth of 0.3 mm or more.
+TEST(Sphere, ItsInfluencesAreDifferencesOfItsPrediction) {
+  for (const Root root : {Root::front, Root::rear}) {
+    SurfaceFrame frame;
+    frame.root = root;
+    const auto surface = catalogue_entry(SurfaceKind::sphere).make(frame);
+    const double c = 0.7, z = 31.8, h = 1e-5;
+    const auto x_mm = [&](double dc, double dz, double height_mm) {
+      const std::vector<double> cos_c(block_size, std::cos(c + dc)),
+          sin_c(block_size, std::sin(c + dc)), position(block_size, z + dz), none(block_size);
+      const double moved[] = {0.12 + height_mm * sin_c[0], -0.08 - height_mm * cos_c[0], 31.5, 0.6};
+      PredictionBlock out;
+      surface->evaluate(moved, {none.data(), cos_c.data(), sin_c.data(), position.data()}, out);
+      EXPECT_TRUE(out.valid);
+      return -out.residual[0];
+    };
+    const double at[] = {0.12, -0.08, 31.5, 0.6};
+    const Surface::Influences found = surface->influences(at, c, z);
+    EXPECT_NEAR(found.c, (x_mm(h, 0, 0) - x_mm(-h, 0, 0)) / (2 * h), 1e-8);
+    EXPECT_NEAR(found.position, (x_mm(0, h, 0) - x_mm(0, -h, 0)) / (2 * h), 1e-8);
+    EXPECT_NEAR(found.height, (x_mm(0, 0, h) - x_mm(0, 0, -h)) / (2 * h), 1e-8);
+  }
 }
 
 /// Errors over u of 200 streams: their squares are χ² of 200 degrees of freedom, 1 in 10⁴ to

@@ -8,6 +8,7 @@
 #include "calibrate/diagnose/catalogue.hpp"
 #include "calibrate/diagnose/explain.hpp"
 #include "calibrate/diagnose/find.hpp"
+#include "calibrate/estimate/plausible_errors.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "calibrate/estimate/total_uncertainty.hpp"
 #include "math/linear_algebra.hpp"
@@ -111,9 +112,63 @@ std::vector<bool> parts_of_unknown(const Found& search, const std::vector<Machin
   return unknown;
 }
 
+bool is_sure(const Term& term) { return term.errors.empty() || form_is_sure(term.of.term); }
+
+/// Base and what was found together, in the units of their columns.
+struct JointFit {
+  VectorXd base;        ///< of the base's columns, and more
+  MatrixXd covariance;  ///< of base and `found`
+  std::vector<FoundColumns> found;
+  std::vector<ErrorTerm> errors;  ///< in place of those found whose form is not sure
+};
+
+/// What was found in a form that is not sure is random instead, with the errors that it may be as
+/// well: in the forms of Eq. 210, at the sizes that the data show (Eq. 332). @param findings one
+/// each of `search.found`
+JointFit with_open_forms(const TipFit& fit, const Geometry& geometry, const Found& search,
+                         const std::vector<MachineFinding>& findings) {
+  JointFit out;
+  MatrixXd fixed = fit.solution.jacobian;
+  std::vector<ErrorName> open;
+  for (std::size_t at = 0; at < search.found.size(); ++at) {
+    const Term& term = search.terms[search.found[at]];
+    if (!is_sure(term)) {
+      for (const MachineTerm* member : terms_of(findings[at], search))
+        if (is_machine_error(*member)) open.push_back(std::get<ErrorOfPosition>(*member).error);
+      continue;
+    }
+    out.found.push_back({term.columns.cols(), term.errors});
+    fixed.conservativeResize(Eigen::NoChange, fixed.cols() + term.columns.cols());
+    fixed.rightCols(term.columns.cols()) = linear::scaled_rows(fit.problem.weights, term.columns);
+  }
+  std::vector<PlausibleError> plausible = plausible_errors(fit.problem, {}, open);
+  std::erase_if(plausible, [&](const PlausibleError& error) {
+    return std::ranges::find(open, error.name) == open.end();
+  });
+  std::vector<UncertainAmount> amounts;
+  FoundColumns forms;
+  for (const PlausibleError& error : plausible)
+    for (const UncertainAmount& amount : error.amounts) {
+      amounts.push_back(amount);
+      forms.errors.push_back({amount.name, amount.unit(), 0.0});
+    }
+  forms.count = static_cast<Index>(amounts.size());
+  MatrixXd random = amount_columns(fit.problem, geometry, amounts);
+  weigh(fit.problem, random);
+  RandomEffects effects = regress(fit.solution.residuals, fixed, random, groups_of(plausible),
+                                  fit.problem.noise_stated);
+  out.base = std::move(effects.fixed);
+  out.covariance = std::move(effects.covariance);
+  out.found.push_back(std::move(forms));
+  for (std::size_t k = 0; k < amounts.size(); ++k)
+    add_amount(out.errors, amounts[k], effects.random[static_cast<Index>(k)]);
+  return out;
+}
+
 /// Base and found terms fitted together: linear about the base's solution, whose second order in
 /// effects of 10 µm stays below a nanometre.
-void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
+void fit_jointly(const TipFit& fit, const Geometry& geometry, const Found& search,
+                 const std::vector<MachineFinding>& findings, MachineDiagnosis& out) {
   const Problem& problem = fit.problem;
   MatrixXd columns = fit.solution.jacobian;
   std::vector<FoundColumns> found;
@@ -128,19 +183,27 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
   const VectorXd left = readings - columns * x;
   const double freedom = static_cast<double>(columns.rows() - rank);
   const double variance = left.squaredNorm() / freedom;
+  const bool sure = fit.problem.read_outs() || std::ranges::all_of(search.found, [&](auto t) {
+                      return is_sure(search.terms[t]);
+                    });
+  const JointFit joint =
+      sure ? JointFit{x, linear::product_transposed(variance * inverse, inverse), found, {}}
+           : with_open_forms(fit, geometry, search, findings);
   const auto& kept = fit.solution.determined.kept;
   out.errors = fit.given;
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const Unknown& one = fit.unknowns[kept[k]];
     const auto at = static_cast<Index>(k);
-    const double value = fit.solution.unknowns[static_cast<Index>(kept[k])] + x[at] * one.largest;
-    const double u = std::sqrt(variance) * inverse.row(at).norm() * one.largest;
+    const double value =
+        fit.solution.unknowns[static_cast<Index>(kept[k])] + joint.base[at] * one.largest;
+    const double u = std::sqrt(joint.covariance(at, at)) * one.largest;
     out.extended.push_back({one.name, {value, u, one.unit.name.angular() ? "rad" : "mm", ""}});
     ErrorTerm term = one.unit;
     term.function = scaled(term.function, value);
     out.errors.terms.push_back(std::move(term));
   }
-  state_covariance(fit, found, linear::product_transposed(variance * inverse, inverse), out.errors);
+  out.errors.terms.insert(out.errors.terms.end(), joint.errors.begin(), joint.errors.end());
+  state_covariance(fit, joint.found, joint.covariance, out.errors);
   const VectorXd sigma = problem.weights.cwiseInverse();
   out.gain.rms_before_mm = problem.rms_mm(readings.cwiseProduct(sigma));
   out.gain.rms_after_mm = problem.rms_mm(left.cwiseProduct(sigma));
@@ -158,17 +221,23 @@ void leave_out_what_warms(Found& search) {
   for (const std::size_t t : search.found) search.terms[t].errors.clear();
 }
 
-void state_findings(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
-  const double to_rms = fit.problem.rms_mm(fit.problem.weights.cwiseInverse()) /
-                        std::sqrt(static_cast<double>(fit.problem.equations));
+std::vector<MachineFinding> findings_of(const Found& search) {
   std::vector<MachineFinding> all;
   for (std::size_t at = 0; at < search.found.size(); ++at)
     all.push_back(finding_of(*search.dictionary, search.terms, search.found, at, search.options));
+  return all;
+}
+
+void state_findings(const TipFit& fit, const Found& search, const std::vector<MachineFinding>& all,
+                    MachineDiagnosis& out) {
+  const double to_rms = fit.problem.rms_mm(fit.problem.weights.cwiseInverse()) /
+                        std::sqrt(static_cast<double>(fit.problem.equations));
   const std::vector<bool> unknown = parts_of_unknown(search, all, fit.problem.read_outs());
   for (std::size_t at = 0; at < search.found.size(); ++at) {
     MachineFinding found = all[at];
     found.rms_mm *= to_rms;
-    out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
+    if (fit.problem.read_outs() || is_sure(search.terms[search.found[at]]))
+      out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
     weigh_aliases(fit.problem, search.terms[search.found[at]], found);
     found.pairs = pairs_like(*search.dictionary, search.terms, search.found, at, found);
     if (!unknown[at]) {
@@ -210,6 +279,13 @@ void judge_scatter(const TipFit& fit, const Found& search, const MachineDiagnose
 bool is_machine_error(const MachineTerm& term) {
   const auto* error = std::get_if<ErrorOfPosition>(&term);
   return error != nullptr && !error->of;
+}
+
+bool form_is_sure(const MachineTerm& term) {
+  const auto* error = std::get_if<ErrorOfPosition>(&term);
+  return error == nullptr || error->of || !is_rotary(static_cast<AxisName>(error->error.body)) ||
+         error->functions.empty() ||
+         !std::holds_alternative<PolynomialError>(error->functions.front());
 }
 
 std::optional<AxisName> axis_of(const MachineTerm& term) {
@@ -258,8 +334,9 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   leave_out_what_warms(found);
   out.hypotheses = static_cast<std::size_t>(found.options.tests + found.options.pattern_tests) + 1;
   out.threshold = found.options.effects().single_level(options.false_alarm);
-  fit_jointly(*fit, found, out);
-  state_findings(*fit, found, out);
+  const std::vector<MachineFinding> findings = findings_of(found);
+  fit_jointly(*fit, geometry, found, findings, out);
+  state_findings(*fit, found, findings, out);
   judge_scatter(*fit, found, options, out);
   // With something unknown, names and sizes of the rest are not sure. A calibration of the
   // readings, which counts what it does not fit, predicts the tip elsewhere better.

@@ -28,8 +28,7 @@ void add(PlausibleError& error, const UncertainAmount& amount, double sum) {
   error.shares.push_back(1.0 / (amount.order * amount.order * sum * mean_square(amount)));
 }
 
-void add_polynomials(const AxisRange& travel, PlausibleError& error) {
-  const int first = !error.name.angular() && error.name.direction != error.name.body ? 2 : 1;
+void add_polynomials(const AxisRange& travel, int first, PlausibleError& error) {
   double sum = 0.0;
   for (int k = first; k <= last_degree; ++k) sum += 1.0 / (k * k);
   for (int k = first; k <= last_degree; ++k)
@@ -54,6 +53,7 @@ double mean_square(const UncertainAmount& amount) {
 
 std::vector<PlausibleError> plausible_errors(const Problem& problem,
                                              const std::vector<ErrorName>& known,
+                                             const std::vector<ErrorName>& polynomials,
                                              const PlausibleSizes& sizes) {
   std::vector<PlausibleError> out;
   for (const MachineAxis& axis : problem.machine->axes)
@@ -66,9 +66,23 @@ std::vector<PlausibleError> plausible_errors(const Problem& problem,
       if (rotary)
         add_harmonics(error);
       else
-        add_polynomials(travel_of(problem, axis), error);
+        add_polynomials(travel_of(problem, axis),
+                        !error.name.angular() && direction != error.name.body ? 2 : 1, error);
+      if (rotary && std::ranges::find(polynomials, error.name) != polynomials.end()) {
+        add_polynomials(axis_range(problem, axis.name), 1, error);
+        for (double& share : error.shares) share *= 0.5;
+      }
       out.push_back(std::move(error));
     }
+  return out;
+}
+
+std::vector<RandomGroup> groups_of(const std::vector<PlausibleError>& errors) {
+  std::vector<RandomGroup> out;
+  for (const PlausibleError& error : errors)
+    out.push_back(
+        {error.plausible,
+         Eigen::Map<const VectorXd>(error.shares.data(), static_cast<Index>(error.shares.size()))});
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calibrate/estimate/geometry.hpp"
+#include "calibrate/estimate/random_effects.hpp"
 
 namespace trueaxis::calibrate_detail {
 
@@ -34,10 +35,16 @@ struct PlausibleSizes {
 
 /// The component errors of every axis that `known` does not name: Legendre polynomials over the
 /// travel of a linear axis up to degree 3 (of straightness from 2 on: degree 1 is squareness),
-/// harmonics 1 to 4 of a rotary one. Amounts fall off as the order.
+/// harmonics 1 to 4 of a rotary one. Amounts fall off as the order. @param polynomials errors of
+/// rotary axes that may as well be a polynomial over what was read: half of the variance is that of
+/// degrees 1 to 3
 std::vector<PlausibleError> plausible_errors(const Problem& problem,
                                              const std::vector<ErrorName>& known,
+                                             const std::vector<ErrorName>& polynomials = {},
                                              const PlausibleSizes& sizes = {});
+
+/// A group of random columns for each error.
+std::vector<RandomGroup> groups_of(const std::vector<PlausibleError>& errors);
 
 /// Columns of the readings per mm or rad of every amount, each of a component error.
 MatrixXd amount_columns(const Problem& problem, const Geometry& geometry,

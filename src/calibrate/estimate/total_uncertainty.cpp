@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "calibrate/estimate/plausible_errors.hpp"
-#include "calibrate/estimate/random_effects.hpp"
 #include "math/covariance.hpp"
 #include "math/linear_algebra.hpp"
 
@@ -51,6 +50,29 @@ struct Given {
   }
 };
 
+bool add_to(ErrorFunction& sum, const ErrorFunction& more) {
+  if (auto* fourier = std::get_if<FourierError>(&sum)) {
+    const auto* one = std::get_if<FourierError>(&more);
+    if (one == nullptr || one->period != fourier->period) return false;
+    const FourierError::Term& term = one->terms.front();
+    const auto order = std::ranges::find(fourier->terms, term.order, &FourierError::Term::order);
+    if (order == fourier->terms.end())
+      fourier->terms.push_back(term);
+    else
+      order->cos += term.cos, order->sin += term.sin;
+    return true;
+  }
+  auto* polynomial = std::get_if<PolynomialError>(&sum);
+  const auto* one = std::get_if<PolynomialError>(&more);
+  if (polynomial == nullptr || one == nullptr || one->origin != polynomial->origin ||
+      one->scale != polynomial->scale)
+    return false;
+  auto& c = polynomial->coefficients;
+  c.resize(std::max(c.size(), one->coefficients.size()), 0.0);
+  for (std::size_t i = 0; i < one->coefficients.size(); ++i) c[i] += one->coefficients[i];
+  return true;
+}
+
 /// Component errors that a value is known of, by the files or as unknowns of the fit.
 std::vector<ErrorName> known_of(const TipFit& fit) {
   std::vector<ErrorName> known;
@@ -86,7 +108,7 @@ class Together {
   Together(const TipFit& fit, const ErrorModel& errors, const CalibrationOptions& options)
       : fit_(fit),
         given_(fit),
-        plausible_(plausible_errors(fit.problem, known_of(fit))),
+        plausible_(plausible_errors(fit.problem, known_of(fit), options.polynomials)),
         held_(options.counts_held ? held_of(fit) : std::vector<Unknown>()) {
     amounts_ = given_.components;
     for (const PlausibleError& error : plausible_)
@@ -130,10 +152,8 @@ class Together {
 
   std::vector<RandomGroup> groups() const {
     std::vector<RandomGroup> out{{1.0, VectorXd::Ones(given_.root.cols()), true}};
-    for (const PlausibleError& error : plausible_)
-      out.push_back(
-          {error.plausible, Eigen::Map<const VectorXd>(error.shares.data(),
-                                                       static_cast<Index>(error.shares.size()))});
+    const auto plausible = groups_of(plausible_);
+    out.insert(out.end(), plausible.begin(), plausible.end());
     return out;
   }
 
@@ -231,39 +251,6 @@ class Together {
     }
   }
 
-  /// Amounts of one error that a function can hold together become one entry.
-  static void add_amount(std::vector<ErrorTerm>& terms, const UncertainAmount& amount,
-                         double value) {
-    ErrorTerm term{amount.name, scaled(amount.unit(), value), 0.0};
-    const auto same = std::ranges::find_if(terms, [&](ErrorTerm& other) {
-      return other.name == term.name && add_to(other.function, term.function);
-    });
-    if (same == terms.end()) terms.push_back(std::move(term));
-  }
-
-  static bool add_to(ErrorFunction& sum, const ErrorFunction& more) {
-    if (auto* fourier = std::get_if<FourierError>(&sum)) {
-      const auto* one = std::get_if<FourierError>(&more);
-      if (one == nullptr || one->period != fourier->period) return false;
-      const FourierError::Term& term = one->terms.front();
-      const auto order = std::ranges::find(fourier->terms, term.order, &FourierError::Term::order);
-      if (order == fourier->terms.end())
-        fourier->terms.push_back(term);
-      else
-        order->cos += term.cos, order->sin += term.sin;
-      return true;
-    }
-    auto* polynomial = std::get_if<PolynomialError>(&sum);
-    const auto* one = std::get_if<PolynomialError>(&more);
-    if (polynomial == nullptr || one == nullptr || one->origin != polynomial->origin ||
-        one->scale != polynomial->scale)
-      return false;
-    auto& c = polynomial->coefficients;
-    c.resize(std::max(c.size(), one->coefficients.size()), 0.0);
-    for (std::size_t i = 0; i < one->coefficients.size(); ++i) c[i] += one->coefficients[i];
-    return true;
-  }
-
   const TipFit& fit_;
   Given given_;
   std::vector<PlausibleError> plausible_;
@@ -276,6 +263,14 @@ class Together {
 };
 
 }  // namespace
+
+void add_amount(std::vector<ErrorTerm>& terms, const UncertainAmount& amount, double value) {
+  ErrorTerm term{amount.name, scaled(amount.unit(), value), 0.0};
+  const auto same = std::ranges::find_if(terms, [&](ErrorTerm& other) {
+    return other.name == term.name && add_to(other.function, term.function);
+  });
+  if (same == terms.end()) terms.push_back(std::move(term));
+}
 
 UncertainAmount amount_of(const ErrorTerm& unit) {
   UncertainAmount out{.name = unit.name};

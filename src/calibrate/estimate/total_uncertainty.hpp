@@ -24,6 +24,10 @@ struct FoundColumns {
 void state_covariance(const TipFit& fit, std::span<const FoundColumns> found,
                       const MatrixXd& of_columns, ErrorModel& errors);
 
+/// Adds an amount times `value`: amounts of one error that a function can hold together become one
+/// entry.
+void add_amount(std::vector<ErrorTerm>& terms, const UncertainAmount& amount, double value);
+
 /// An error of size 1 as an amount.
 UncertainAmount amount_of(const ErrorTerm& unit);
 

@@ -31,17 +31,34 @@ ErrorCovariance covariance_of(const MachineFinding& found) {
   return out;
 }
 
+void add_errors_of_class(const MachineDiagnosis& diagnosis, const MachineFinding& found,
+                         std::vector<ErrorName>& names) {
+  for (const std::string& member : found.members()) {
+    const auto effect = std::ranges::find(diagnosis.effects, member, &MachineEffect::id);
+    if (effect != diagnosis.effects.end() && is_machine_error(effect->term))
+      names.push_back(std::get<ErrorOfPosition>(effect->term).error);
+  }
+}
+
 }  // namespace
 
 ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) {
   const bool explained = diagnosis.unexplained.empty();
+  const auto is_sure = [](const MachineFinding& found) {
+    return found.errors.empty() || form_is_sure(found.cause.term);
+  };
   CalibrationOptions options;
   options.errors = job.known;
   options.counts_held = true;
-  if (explained)
-    for (const MachineFinding& found : diagnosis.findings)
-      options.errors.terms.insert(options.errors.terms.end(), found.errors.begin(),
-                                  found.errors.end());
+  if (explained) {
+    for (const MachineFinding& found : diagnosis.findings) {
+      if (is_sure(found))
+        options.errors.terms.insert(options.errors.terms.end(), found.errors.begin(),
+                                    found.errors.end());
+      else
+        add_errors_of_class(diagnosis, found, options.polynomials);
+    }
+  }
   ErrorModel errors = calibrate(job.machine, job.data, options).errors;
   if (!explained) return errors;
   if (std::ranges::any_of(diagnosis.findings,
@@ -58,7 +75,7 @@ ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) 
     errors.covariance = std::move(counted);
   }
   for (const MachineFinding& found : diagnosis.findings)
-    add_covariance(errors.covariance, covariance_of(found));
+    if (is_sure(found)) add_covariance(errors.covariance, covariance_of(found));
   return errors;
 }
 

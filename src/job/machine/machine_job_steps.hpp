@@ -17,10 +17,10 @@ std::vector<AxisRange> axis_ranges(const MachineJob& job, const std::vector<Prog
 bool beyond_measured(const AxisRange& range);
 
 /// The errors of a job's machine with what is uncertain of them. If all that the diagnosis found
-/// are errors of the machine, they count as known in a calibration of the measurement. Every other
-/// component error then counts with its plausible size; their own covariance is added. With a slip,
-/// a drift or a reversal, which a calibration does not have, the errors are those of the diagnosis,
-/// with the covariance of such a calibration.
+/// are errors of the machine, they count as known in a calibration of the measurement, but for
+/// those whose form is not sure. Every other component error then counts with its plausible size;
+/// their own covariance is added. With a slip, a drift or a reversal, which a calibration does not
+/// have, the errors are those of the diagnosis, with the covariance of such a calibration.
 ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis);
 
 /// The largest distance of the tip between the ends of cutting blocks from the straight lines that

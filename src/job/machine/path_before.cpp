@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double even_rad = 20.0 * rad_per_deg;  // of rotary axes, over which a way is even
 
+/// A block, or a chord of an arc: by the parabola through its ends and the middle of its arc.
 class WayBefore {
  public:
   WayBefore(const MachineModel& model, const ProgramEnd& from, const ProgramEnd& to,
@@ -21,25 +22,26 @@ class WayBefore {
         to_(to),
         part_(part),
         bed_from_program_(rigid::motion(to.setting.bed_from_program)),
-        start_(rigid::eigen(model.nominal(from.commanded, to.setting).tip_mm)),
-        line_(rigid::eigen(model.nominal(to.commanded, to.setting).tip_mm) - start_) {}
+        start_(nominal_tip(from.commanded)),
+        line_(nominal_tip(to.commanded) - start_) {
+    if (to.middle) bow_ = 4.0 * (nominal_tip(*to.middle) - start_ - 0.5 * line_);
+  }
 
   double off_mm(double s) const {
-    const Vector3d point = start_ + s * line_;
+    const Vector3d point = start_ + s * line_ + s * (1.0 - s) * bow_;
     AxisPositions axes;
     for (std::size_t k = 0; k < axis_count; ++k)
       axes[k] = std::lerp(from_.commanded[k], to_.commanded[k], s);
+    if (to_.middle && s == 0.5) axes = *to_.middle;
     if (to_.along_tip)
       axes = axes_for_tip(model_, rigid::array(point), axes, to_.setting).value_or(axes);
     const Vector3d tip = rigid::eigen(model_.actual(axes, to_.setting).tip_mm);
     const Vector3d of_part = bed_from_program_.R.transpose() * part_.at(bed_from_program_ * point);
-    const Vector3d off = tip - of_part - start_;
-    const double square = line_.squaredNorm();
-    const double along = square > 0.0 ? std::clamp(off.dot(line_) / square, 0.0, 1.0) : 0.0;
-    return (off - along * line_).norm();
+    return to_.middle ? across_arc_mm(tip - of_part - point, s) : off_line_mm(tip - of_part);
   }
 
   double largest_mm(double of_interest_mm) const {
+    if (to_.middle) return std::max({off_mm(0.0), off_mm(0.5), off_mm(1.0)});
     double turn = 0.0;
     for (std::size_t k = 3; k < axis_count; ++k)
       turn += std::abs(to_.commanded[k] - from_.commanded[k]);
@@ -50,11 +52,26 @@ class WayBefore {
   }
 
  private:
+  Vector3d nominal_tip(const AxisPositions& axes) const {
+    return rigid::eigen(model_.nominal(axes, to_.setting).tip_mm);
+  }
+  double off_line_mm(const Vector3d& tip) const {
+    const Vector3d off = tip - start_;
+    const double square = line_.squaredNorm();
+    const double along = square > 0.0 ? std::clamp(off.dot(line_) / square, 0.0, 1.0) : 0.0;
+    return (off - along * line_).norm();
+  }
+  double across_arc_mm(const Vector3d& off, double s) const {
+    const Vector3d tangent = line_ + (1.0 - 2.0 * s) * bow_;
+    const double square = tangent.squaredNorm();
+    return square > 0.0 ? (off - off.dot(tangent) / square * tangent).norm() : off.norm();
+  }
+
   const MachineModel& model_;
   const ProgramEnd &from_, &to_;
   const RigidFit::Body& part_;
   rigid::Motion bed_from_program_;
-  Vector3d start_, line_;
+  Vector3d start_, line_, bow_ = Vector3d::Zero();
 };
 
 }  // namespace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "compensate/block_end.hpp"
+
+namespace trueaxis {
+
+inline Vector3 mix(const Vector3& a, const Vector3& b, double s) {
+  return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
+}
+inline AxisPositions mix(const AxisPositions& a, const AxisPositions& b, double s) {
+  AxisPositions out;
+  for (std::size_t k = 0; k < axis_count; ++k) out[k] = a[k] + s * (b[k] - a[k]);
+  return out;
+}
+
+/// What the tip should do in the part during a move (0 ≤ s ≤ 1): the straight line between its
+/// nominal ends, or for a chord of an arc the way of the nominal machine on the arc.
+class NominalWay {
+ public:
+  /// @param start_mm nominal tip where the move begins
+  NominalWay(const CompensationTask& task, const nc::Move& move, const AxisPositions& from,
+             const Vector3& start_mm, const BlockEnd& to);
+
+  bool is_arc() const { return move_.arc != nc::Move::no_arc; }
+  const Vector3& start_mm() const { return start_mm_; }
+  const Vector3& end_mm() const { return end_mm_; }
+  /// Where the nominal machine puts the tip there.
+  AxisPositions axes_at(double s) const;
+
+  /// How far a tip is from the way. Near an arc, which other chords continue, the foot of the
+  /// perpendicular is looked for from s on.
+  double distance_mm(const Vector3& tip_mm, double s) const;
+  /// How far two points are from each other across the straight line.
+  double across_mm(const Vector3& a, const Vector3& b) const;
+
+ private:
+  /// Moves s to the foot of the perpendicular, or to an end of the arc.
+  double from_arc_mm(const Vector3& tip_mm, double& s) const;
+  double arc_begins() const { return -static_cast<double>(move_.chord); }
+  double arc_ends() const { return arc_begins() + task_.program.arcs[move_.arc].chords(); }
+  Vector3 tip_at(double s) const;
+  double apart_mm(const Vector3& a, const Vector3& b, double low, double high) const;
+
+  const CompensationTask& task_;
+  const nc::Move& move_;
+  Setting setting_;
+  AxisPositions from_, to_;
+  Vector3 start_mm_{}, end_mm_{};
+};
+
+}  // namespace trueaxis

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules of a fit that only unusual streams show: correlated noise of a few readings, an angle that
+// scatters, readings far off, a profile that cannot have a ball.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "fit/joint_model.hpp"
+#include "fit/moved.hpp"
+#include "fit/plausible.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/fit.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double radius_mm = 20.0;
+
+/// An eccentric cylinder of so many readings in so many revolutions over 40 mm; the eccentricity
+/// turned by `turned_rad` from X.
+ProbeStream cylinder(std::size_t readings, double revolutions, double eccentricity_mm,
+                     double turned_rad = 0.0) {
+  ProbeStream stream;
+  for (std::size_t i = 0; i < readings; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(readings);
+    const double c = two_pi * revolutions * share;
+    stream.c_rad.push_back(c + turned_rad);
+    stream.position_mm.push_back(40.0 * share);
+    stream.reading_mm.push_back(
+        intersect({{eccentricity_mm, 0.0, 0.0, 0.0, 0.0}, radius_mm, 0.0}, c, 0.0).x_mm);
+  }
+  return stream;
+}
+
+FitOptions of_cylinder() {
+  FitOptions options;
+  options.surface = SurfaceKind::cylinder;
+  return options;
+}
+
+// Eq. 34: of fewer readings than a model of the noise needs (ten a parameter) u is that of white
+// noise times √((1 + ρ)/(1 − ρ)), ρ as it is reported.
+TEST(FitUncertainty, OfAFewCorrelatedReadingsIsWiderByTheirCorrelation) {
+  std::mt19937_64 random(41);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  ProbeStream stream = cylinder(48, 2.3, 0.1);
+  double noise = 0.0;
+  for (double& x : stream.reading_mm) x += noise = 0.95 * noise + normal(random);
+  const FitResult found = fit(stream, of_cylinder());
+  ASSERT_EQ(found.status, FitStatus::converged) << found.message;
+  const double rho = found.autocorrelation;
+  ASSERT_GT(rho * std::sqrt(48.0), 4.0);
+  EXPECT_NEAR(found.u_factor, std::sqrt((1.0 + rho) / (1.0 - rho)), 1e-12);
+}
+
+/// What "noise of C" adds to u of the axis' place.
+double u_by_angle_mm(const FitResult& fit) {
+  for (const BudgetLine& line : fit.budget)
+    if (line.source == "noise of C") return std::hypot(line.u[0], line.u[1]);
+  return 0.0;
+}
+
+// An eccentricity e at angles that scatter by σ_C is read smaller by e σ_C²/2, whatever its
+// direction. Of 4000 readings σ_C² is known to a few √(2/4000); 15 % are six of these.
+TEST(FitUncertainty, OfAScatteringAngleDoesNotDependOnWhereTheAxisIs) {
+  constexpr double e_mm = 1.0, sigma_rad = 0.02;
+  double first = 0.0;
+  for (const double turned : {0.0, 0.8, 0.5 * std::numbers::pi, 4.0}) {
+    std::mt19937_64 random(42);
+    std::normal_distribution<double> normal(0.0, sigma_rad);
+    ProbeStream stream = cylinder(4000, 40.3, e_mm, turned);
+    for (double& c : stream.c_rad) c += normal(random);
+    const double u = u_by_angle_mm(fit(stream, of_cylinder()));
+    EXPECT_NEAR(u, 0.5 * sigma_rad * sigma_rad * e_mm, 0.15 * 0.5 * sigma_rad * sigma_rad * e_mm);
+    if (first == 0.0) first = u;
+    EXPECT_NEAR(u, first, 1e-6 * first) << turned;
+  }
+}
+
+// u in units of 1e-3: 1 of x and y at the middle, 0.1 of each slope; in quadrature 5 at 49 mm off
+// it. A plane has no place, and its slopes count together.
+TEST(FitMovedPart, UOfAnAxisIsThatAtItsWorseEnd) {
+  FitResult fit;
+  fit.coverage_factor = 3.0;
+  fit.axis.axis.z_ref_mm = 10.0;
+  fit.axis.covariance.by_rows = {1e-6, 0, 0, 0, 0, 1e-6, 0, 0, 0, 0, 1e-8, 0, 0, 0, 0, 1e-8};
+  fit.position_min_mm = 10.0 - std::sqrt(2400.0), fit.position_max_mm = 30.0;
+  fit.surface = SurfaceKind::cylinder;
+  EXPECT_NEAR(U_of_axis_mm(fit), 3.0 * 5e-3, 1e-12);
+  fit.surface = SurfaceKind::plane;
+  EXPECT_NEAR(U_of_axis_mm(fit), 3.0 * (std::sqrt(2400.0) - 10.0) * std::sqrt(2e-8), 1e-12);
+  fit.position_max_mm = 60.0;
+  EXPECT_NEAR(U_of_axis_mm(fit), 3.0 * 60.0 * std::sqrt(2e-8), 1e-12);
+}
+
+// A lone reading far off does not count, whatever it is; of two neighbours both do. The size of a
+// step is that of the three turns before and after it, here of the first six.
+TEST(FitMovedPart, OnlyALoneReadingFarOffDoesNotCount) {
+  constexpr std::size_t per_turn = 144, count = 8 * per_turn + 1;
+  const ProbeStream stream = cylinder(count, static_cast<double>(count) / per_turn, 0.1);
+  const FitResult found = fit(stream, of_cylinder());
+  std::mt19937_64 random(43);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  std::vector<double> left_mm;
+  for (std::size_t i = 0; i < count; ++i)
+    left_mm.push_back(normal(random) + (i < 3 * per_turn ? 0.0 : 4e-3 * std::cos(stream.c_rad[i])));
+  const auto step_mm = [&](std::size_t at, const std::vector<double>& off_mm) {
+    std::vector<double> there = left_mm;
+    std::ranges::copy(off_mm, there.begin() + static_cast<std::ptrdiff_t>(at));
+    const auto step = moved_in_pass(stream, there, found);
+    return step ? step->size_mm : 0.0;
+  };
+  ASSERT_NEAR(step_mm(0, {}), 4e-3, 5e-4);  // u of a mean of 3 turns: 7e-5 mm
+  for (const std::size_t at : {std::size_t{0}, std::size_t{300}, std::size_t{700}}) {
+    ASSERT_GT(step_mm(at, {0.015, 0.015}), 0.0);
+    EXPECT_NE(step_mm(at, {0.015, 0.015}), step_mm(at, {0.016, 0.015})) << at;
+    EXPECT_NE(step_mm(at, {0.015, 0.015}), step_mm(at, {0.015, 0.016})) << at;
+    EXPECT_EQ(step_mm(at, {0.015}), step_mm(at, {0.016})) << at;
+  }
+}
+
+// Lobes leave residuals too, of up to 10 µm: C in gon is looked for beyond.
+TEST(FitMisreading, SmallResidualsAreLobes) {
+  const ProbeStream stream = cylinder(2880, 20.0, 0.1);
+  const Refit better = [](const ProbeStream& right, SurfaceKind) {
+    FitResult again;
+    again.status = FitStatus::converged, again.points = right.size(), again.rms_mm = 1e-4;
+    return again;
+  };
+  FitResult found;
+  found.surface = SurfaceKind::cylinder;
+  found.residual_mm.assign(stream.size(), 0.0);
+  found.rms_mm = 0.009;
+  EXPECT_EQ(likely_misreading(stream, found, better), "");
+  found.rms_mm = 0.011;
+  EXPECT_TRUE(likely_misreading(stream, found, better).starts_with("C has 400 gon"));
+}
+
+// The largest of 2880 readings of noise is below 5 σ but once in 600 streams.
+TEST(FitNotes, AReadingBeyondSixSigmaIsSuspected) {
+  const auto notes = [](double off_mm) {
+    std::mt19937_64 random(44);
+    std::normal_distribution<double> normal(0.0, 1e-3);
+    ProbeStream stream = cylinder(2880, 20.0, 0.1);
+    for (std::size_t i = 0; i < stream.size(); ++i)
+      stream.reading_mm[i] += i == 700 ? off_mm : normal(random);
+    std::string all;
+    for (const std::string& note : fit(stream, of_cylinder()).notes) all += note + '\n';
+    return all;
+  };
+  // Robust σ of some 1000 residuals is known to 4 %, twice that here: 6 ± 0.5 σ.
+  EXPECT_EQ(notes(5.5e-3).find("robust σ"), std::string::npos);
+  EXPECT_NE(notes(6.5e-3).find("1 reading lies beyond 6 robust σ"), std::string::npos);
+}
+
+// The axis of one clamping, and of that one alone.
+TEST(FitStart, ATiltIsOfOneClamping) {
+  ProbeStream stream = cylinder(400, 8.0, 0.1);
+  stream.setups.resize(2);
+  for (std::size_t i = 0; i < stream.size(); ++i) stream.setup.push_back(i < 200 ? 1 : 2);
+  stream.setups[1].number = 2, stream.setups[1].clamp_force_ratio = 1.5;  // clamped anew
+  const JointModel model(stream, place_set_ups(stream), catalogue_entry(SurfaceKind::cylinder), {});
+  ASSERT_EQ(model.clampings(), 2U);
+  const std::vector<double> none(model.parameter_count(), 0.0);
+  const std::vector<double> tilted = model.tilted(none, 1, {0.3, -0.2});
+  const std::vector<double> back = model.mirrored(tilted, 1);
+  for (const JointPart& part : model.parts()) {
+    const auto slopes = [&](const std::vector<double>& joint) {
+      const Axis axis = part.surface->axis(model.working(joint, part));
+      return std::pair(axis.slope_x, axis.slope_y);
+    };
+    const bool here = part.clamping == 1;
+    EXPECT_EQ(slopes(tilted), here ? std::pair(0.3, -0.2) : std::pair(0.0, 0.0));
+    EXPECT_EQ(slopes(back), here ? std::pair(-0.3, 0.2) : std::pair(0.0, 0.0));
+  }
+}
+
+}  // namespace
+}  // namespace trueaxis

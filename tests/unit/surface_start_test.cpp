@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is exact about a surface's own numbers: its start on readings without noise, its u, its
+// derivatives.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "surface/own_surface.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+// The root of the larger eigenvalue of the axis' covariance at Z, made by the matrix itself.
+TEST(SurfaceAxis, ItsUIsThatOfTheWorstDirection) {
+  Eigen::Matrix4d factor;
+  factor << 3.0, 0.5, -0.2, 0.1, 0.7, 1.0, 0.4, 0.3, 0.05, 0.02, 0.06, 0.01, -0.03, 0.04, 0.02,
+      0.08;
+  const Eigen::Matrix4d covariance = factor * factor.transpose();
+  AxisEstimate axis;
+  axis.axis.z_ref_mm = 20.0;
+  for (Eigen::Index i = 0; i < 4; ++i)
+    for (Eigen::Index j = 0; j < 4; ++j)
+      axis.covariance.by_rows[static_cast<std::size_t>(4 * i + j)] = covariance(i, j);
+  for (const double z_mm : {-100.0, 20.0, 35.0}) {
+    Eigen::Matrix<double, 2, 4> at;
+    at << Eigen::Matrix2d::Identity(), (z_mm - 20.0) * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d of = at * covariance * at.transpose();
+    const double u = std::sqrt(of.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff());
+    EXPECT_NEAR(axis.u_at(z_mm), u, 1e-12 * u);
+  }
+  const Eigen::Matrix2d slopes = covariance.bottomRightCorner<2, 2>();
+  EXPECT_NEAR(axis.u_slope(), std::sqrt(slopes.eigenvalues().real().maxCoeff()), 1e-12);
+  EXPECT_NEAR(axis.u_slopes(), std::sqrt(slopes.trace()), 1e-12);
+}
+
+/// Readings of a cone along the spindle, 24 in a turn.
+struct LevelReadings {
+  std::vector<double> x, cos_c, sin_c, z;
+
+  explicit LevelReadings(const Revolved& surface) {
+    for (int i = 0; i < 240; ++i) {
+      const double c = two_pi * i / 24.0;
+      z.push_back(0.25 * i - 30.0 + surface.axis.z_ref_mm);
+      x.push_back(intersect(surface, c, z.back()).x_mm);
+      cos_c.push_back(std::cos(c)), sin_c.push_back(std::sin(c));
+    }
+  }
+  ReadingBlock block() const { return {x.data(), cos_c.data(), sin_c.data(), z.data()}; }
+};
+
+// Without a tilt the equation of the start is exact. The rounding of squares of 40 mm over an
+// eccentricity of 1 mm.
+TEST(RevolvedStart, LevelIsExactForASurfaceAlongTheSpindle) {
+  for (const double t : {0.0, 0.15, -0.3}) {
+    const Revolved surface{{1.3, -0.7, 0.0, 0.0, 55.0}, 40.0, t};
+    const LevelReadings readings(surface);
+    SurfaceFrame frame;
+    frame.position_ref_mm = 55.0, frame.half_length_mm = 30.0;
+    const auto start =
+        catalogue_entry(SurfaceKind::cone).make(frame)->level_start(readings.block(), 240);
+    const double expected[] = {1.3, -0.7, 0.0, 0.0, 40.0, t};
+    ASSERT_EQ(start.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(start[i], expected[i], 1e-10) << t << ' ' << i;
+  }
+}
+
+/// d prediction / d working of a block by differences, against the columns; h⁴ and rounding over h.
+void expect_derivatives(const Surface& surface, const std::vector<double>& working,
+                        const LevelReadings& at) {
+  const auto p = surface.parameter_count();
+  std::vector<double> transform(p * surface.column_count());
+  surface.transform(working, transform.data());
+  PredictionBlock block, moved;
+  surface.evaluate(working, at.block(), block);
+  ASSERT_TRUE(block.valid);
+  for (std::size_t a = 0; a < p; ++a) {
+    const double h = 1e-3 / surface.working_scale_mm(working)[a];
+    std::array<double, block_size> slope{};
+    for (const auto& [steps, weight] :
+         {std::pair(1.0, 8.0), {-1.0, -8.0}, {2.0, -1.0}, {-2.0, 1.0}}) {
+      std::vector<double> there = working;
+      there[a] += steps * h;
+      surface.evaluate(there, at.block(), moved);
+      for (std::size_t i = 0; i < block_size; ++i)
+        slope[i] -= weight * moved.residual[i] / (12.0 * h);
+    }
+    for (std::size_t i = 0; i < block_size; ++i) {
+      double column = 0.0;
+      for (std::size_t j = 0; j < surface.column_count(); ++j)
+        column += transform[a * surface.column_count() + j] * block.column[j][i];
+      ASSERT_NEAR(column, slope[i], 1e-9 / (h * 1e3) + 1e-9) << a << ' ' << i;
+    }
+  }
+}
+
+class Cone final : public RevolvedProfile {
+ public:
+  std::vector<Parameter> parameters() const override {
+    return {{.name = "radius_at_0", .unit = "mm", .start = 30.0},
+            {.name = "taper", .unit = "1", .start = 0.0, .length_mm = 40.0}};
+  }
+  Radius radius(double height_mm, std::span<const double> p) const override {
+    return {.mm = p[0] + p[1] * height_mm, .per_height = p[1], .per_parameter = {1.0, height_mm}};
+  }
+};
+
+TEST(OwnSurfaceProfile, ItsDerivativesAreThoseOfItsPrediction) {
+  for (const Root root : {Root::front, Root::rear}) {
+    SurfaceFrame frame;
+    frame.position_ref_mm = 55.0, frame.half_length_mm = 30.0, frame.root = root;
+    Revolved about{{1.3, -0.7, 0.08, -0.05, 55.0}, 40.0, 0.2};
+    LevelReadings readings(about);
+    if (root == Root::rear)
+      for (double& x : readings.x) x = -x;
+    expect_derivatives(*own_entry(std::make_shared<Cone>()).make(frame),
+                       {1.3, -0.7, 0.08, -0.05, 29.0, 0.2}, readings);
+  }
+}
+
+}  // namespace
+}  // namespace trueaxis
