@@ -215,6 +215,14 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
     if (k == 0) explanation = explain(search, *refit, timing);
     if (k == 1) refit->fit_surface();
   });
+  while (std::optional<Model> other = with_likeliest_rival(search.model, explanation)) {
+    std::optional<Timing> of_other;
+    auto rival = relinearise(ideal, *other, of_other);
+    if (!(rival->criterion() < refit->criterion())) break;
+    search.model = std::move(*other), refit = std::move(rival), timing = of_other;
+    explanation = explain(search, *refit, timing);
+    refit->fit_surface();
+  }
 
   out.findings = std::move(explanation.findings);
   add_delay(ideal, *refit, out);

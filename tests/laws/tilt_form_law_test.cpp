@@ -13,7 +13,8 @@ namespace trueaxis::testing {
 namespace {
 
 constexpr int machines = 40;
-constexpr double sigma_mm = 1e-3, low_rad = -90.0 * rad_per_deg, high_rad = 30.0 * rad_per_deg;
+constexpr double probing_sigma_mm = 1e-3, low_rad = -90.0 * rad_per_deg,
+                 high_rad = 30.0 * rad_per_deg;
 
 /// 5 to 40 µm (at 250 mm) as one or two waves a revolution, or as a polynomial of degree 2 or 3
 /// over what is read.
@@ -37,7 +38,7 @@ ErrorModel location_errors(const Machine& machine, const BallPlan& plan, Draw& d
   ErrorModel errors = drawn_location_errors(machine, draw);
   const ErrorModel none;
   MachineMeasurement ideal = measure_balls({machine, none}, plan, 0.0, draw);
-  ideal.noise_mm = sigma_mm;
+  ideal.noise_mm = probing_sigma_mm;
   for (const NotDetermined& one : calibrate(machine, std::span(&ideal, 1)).not_determined)
     std::erase_if(errors.terms, [&](const ErrorTerm& term) {
       return to_string(term.name) == one.members.front();
@@ -63,7 +64,7 @@ TEST(TiltFormLaw, TheUncertaintyCountsEveryFormThatFitsFewAngles) {
       plan.a_deg.push_back(std::lerp(low_rad, high_rad, k / (angles - 1.0)) / rad_per_deg);
     ErrorModel truth = location_errors(machine, plan, draw);
     truth.terms.push_back(hidden_error(plan.tilt, draw));
-    const MachineMeasurement data = measure_balls({machine, truth}, plan, sigma_mm, draw);
+    const MachineMeasurement data = measure_balls({machine, truth}, plan, probing_sigma_mm, draw);
     const MachineDiagnosis found = diagnose_machine(machine, std::span(&data, 1));
     if (found.findings.empty() || !found.unexplained.empty()) continue;
     ++named;

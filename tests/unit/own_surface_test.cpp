@@ -6,23 +6,13 @@
 #include <cmath>
 #include <memory>
 
+#include "support/conical_profile.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::testing {
 namespace {
-
-class Conical final : public RevolvedProfile {
- public:
-  std::vector<Parameter> parameters() const override {
-    return {{.name = "radius_at_0", .unit = "mm", .start = 30.0},
-            {.name = "taper", .unit = "1", .start = 0.0, .length_mm = 40.0}};
-  }
-  Radius radius(double height_mm, std::span<const double> p) const override {
-    return {.mm = p[0] + p[1] * height_mm, .per_height = p[1], .per_parameter = {1.0, height_mm}};
-  }
-};
 
 ProbeStream tilted_cone() {
   virtual_lathe::Scenario scenario;
@@ -44,7 +34,7 @@ TEST(OwnSurface, AConeIsTheCataloguesCone) {
     options.loss = loss;
     options.influences = {{Influence::Kind::probe_height, 0.01}, {Influence::Kind::c_offset, 1e-3}};
     const FitResult cone = fit(stream, options);
-    options.profile = std::make_shared<Conical>();
+    options.profile = std::make_shared<ConicalProfile>();
     const FitResult own = fit(stream, options);
     ASSERT_EQ(own.status, FitStatus::converged) << own.message;
     EXPECT_EQ(own.surface, SurfaceKind::own);
@@ -63,7 +53,7 @@ TEST(OwnSurface, AConeIsTheCataloguesCone) {
 TEST(OwnSurface, ReadingsThatItDoesNotKnowAreRefused) {
   ProbeStream stream = tilted_cone();
   FitOptions options;
-  options.profile = std::make_shared<Conical>();
+  options.profile = std::make_shared<ConicalProfile>();
   EXPECT_NO_THROW(fit(stream, options));
   options.ball_radius_mm = 0.5;
   EXPECT_THROW(fit(stream, options), InputError);

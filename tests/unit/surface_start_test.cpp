@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "support/conical_profile.hpp"
 #include "surface/own_surface.hpp"
 #include "trueaxis/units.hpp"
 
@@ -97,17 +98,6 @@ void expect_derivatives(const Surface& surface, const std::vector<double>& worki
   }
 }
 
-class Cone final : public RevolvedProfile {
- public:
-  std::vector<Parameter> parameters() const override {
-    return {{.name = "radius_at_0", .unit = "mm", .start = 30.0},
-            {.name = "taper", .unit = "1", .start = 0.0, .length_mm = 40.0}};
-  }
-  Radius radius(double height_mm, std::span<const double> p) const override {
-    return {.mm = p[0] + p[1] * height_mm, .per_height = p[1], .per_parameter = {1.0, height_mm}};
-  }
-};
-
 TEST(OwnSurfaceProfile, ItsDerivativesAreThoseOfItsPrediction) {
   for (const Root root : {Root::front, Root::rear}) {
     SurfaceFrame frame;
@@ -116,7 +106,7 @@ TEST(OwnSurfaceProfile, ItsDerivativesAreThoseOfItsPrediction) {
     LevelReadings readings(about);
     if (root == Root::rear)
       for (double& x : readings.x) x = -x;
-    expect_derivatives(*own_entry(std::make_shared<Cone>()).make(frame),
+    expect_derivatives(*own_entry(std::make_shared<testing::ConicalProfile>()).make(frame),
                        {1.3, -0.7, 0.08, -0.05, 29.0, 0.2}, readings);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/explain/explanation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/threads.hpp"
@@ -47,6 +48,7 @@ Finding finding_of(const Problem& problem, const Model& model, const Joint& join
   return out;
 }
 
+constexpr double excluded = 1e-3;                 // probability, as of any class
 constexpr double ordinary = 3.0, possible = 8.0;  // spreads of the logarithm of a size
 
 /// What no ordinary size would do: where its columns hold, the data tell such a cause, and beyond
@@ -126,6 +128,19 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
       add_improbable(fit.problem(), joint, found, t, out.improbable);
     out.ambiguous.push_back({t, std::move(found)});
   }
+  return out;
+}
+
+std::optional<Model> with_likeliest_rival(const Model& model, const Explanation& explanation) {
+  const auto least = std::ranges::min_element(
+      explanation.ambiguous, {}, [](const AmbiguousFinding& f) { return f.found.probability; });
+  if (least == explanation.ambiguous.end() || least->found.probability >= excluded) return {};
+  const ConfounderSet& found = least->found;
+  const auto rival = std::ranges::max_element(found.rivals, {}, &Rival::probability);
+  if (rival == found.rivals.end()) return {};
+  Model out = model;
+  out.terms[least->term] =
+      found.members[static_cast<std::size_t>(rival - found.rivals.begin()) + 1].hypothesis;
   return out;
 }
 

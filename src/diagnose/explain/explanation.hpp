@@ -24,4 +24,8 @@ struct Explanation {
 Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
                     const std::optional<Timing>& timing);
 
+/// The model with a rival cause in the place of a term that it all but excludes about the part: the
+/// search named it about the ideal fit. None: every cause is in its own class.
+std::optional<Model> with_likeliest_rival(const Model& model, const Explanation& explanation);
+
 }  // namespace trueaxis::diagnose_detail
