@@ -219,6 +219,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
     std::optional<Timing> of_other;
     auto rival = relinearise(ideal, *other, of_other);
     if (!(rival->criterion() < refit->criterion())) break;
+    search.about(slipped ? slipped->problem() : ideal.problem);  // not the part that goes
     search.model = std::move(*other), refit = std::move(rival), timing = of_other;
     explanation = explain(search, *refit, timing);
     refit->fit_surface();
