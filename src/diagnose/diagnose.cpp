@@ -215,11 +215,13 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
     if (k == 0) explanation = explain(search, *refit, timing);
     if (k == 1) refit->fit_surface();
   });
-  while (std::optional<Model> other = with_likeliest_rival(search.model, explanation)) {
+  while (slipped) {
+    std::optional<Model> other = with_likeliest_rival(search.model, explanation);
+    if (!other) break;
     std::optional<Timing> of_other;
     auto rival = relinearise(ideal, *other, of_other);
     if (!(rival->criterion() < refit->criterion())) break;
-    search.about(slipped ? slipped->problem() : ideal.problem);  // not the part that goes
+    search.about(slipped->problem());  // not the part that goes
     search.model = std::move(*other), refit = std::move(rival), timing = of_other;
     explanation = explain(search, *refit, timing);
     refit->fit_surface();

@@ -186,16 +186,6 @@ void check_nose(TomlTable cut, const TargetSurface& target, const ToolSetup& too
   }
 }
 
-/// A nose that is moved on by more than its width leaves ridges of stock between its turns.
-void check_feed(TomlTable cut, const ToolSetup& tool) {
-  const double width_mm = 2.0 * tool.nose_radius_mm;
-  if (width_mm > 0.0 && tool.feed_mm_per_rev > width_mm)
-    cut.complain("feed_mm_per_rev",
-                 fmt::format("is more than the width of the tool's nose, {:.6g} mm: stock would be "
-                             "left between the turns",
-                             width_mm));
-}
-
 /// The rows that the table of this cut would have must fit a file that a control can be given.
 void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
   const double travel = target.path_end_mm() - target.path_start_mm();
@@ -293,7 +283,6 @@ void read_cut(TomlTable root, JobFile& file, bool required) {
     job.tool = read_tool(cut);
     check_rows(cut, *job.target, job.tool);
     check_nose(cut, *job.target, job.tool);
-    check_feed(cut, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
     if (auto correction = root.maybe_table("correction")) read_correction(*correction, job);
     read_outputs(root, file);

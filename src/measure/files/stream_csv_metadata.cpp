@@ -16,7 +16,6 @@ namespace trueaxis {
 namespace {
 
 constexpr std::string_view prefix = "setup.";
-constexpr double most_noise_mm = 10.0;  // no probe has as much
 
 struct SetupKey {
   int number = 0;
@@ -223,8 +222,7 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
     known.nominal_radius_mm = radius_mm;
   } else if (key == "sensor_noise") {
     const auto noise_mm = quantity_in(value, UnitKind::length);
-    if (!noise_mm || !(*noise_mm >= 0.0 && *noise_mm <= most_noise_mm))
-      return refuse("a standard deviation of at most 10 mm, such as 2 um");
+    if (!noise_mm || *noise_mm < 0.0) return refuse("a standard deviation, such as 2 um");
     known.sensor_noise_mm = noise_mm;
   } else if (key == "ball_radius") {
     const auto radius_mm = quantity_in(value, UnitKind::length);
