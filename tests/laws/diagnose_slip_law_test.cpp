@@ -113,15 +113,19 @@ void expect_axis_after(const Scenario& scenario, double dx_mm, double dy_mm, dou
   }
 }
 
+/// The same with less noise.
+Scenario turned_cylinder(std::uint64_t seed, double radius_mm, double sigma_mm) {
+  Scenario scenario = turned_cylinder();
+  scenario.seed = seed, scenario.part.radius_mm = radius_mm, scenario.noise.sigma_mm = sigma_mm;
+  return scenario;
+}
+
 // A slip δ leaves δ²/2R of the second order, 1 to 2.3 µm here with 0.5 µm of noise: lobes of the
 // order 2 before it. They were named, a rival cause took its size from them, and the axis was 7 µm
 // off with U 3 µm.
 TEST(LargeSlip, IsExactToAllOrders) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    Scenario scenario = turned_cylinder();
-    scenario.seed = seed;
-    scenario.part.radius_mm = 20.0;
-    scenario.noise.sigma_mm = 0.0005;
+    Scenario scenario = turned_cylinder(seed, 20.0, 0.0005);
     const double slip = 0.2 + 0.05 * static_cast<double>(seed % 3), towards = 1.1 * double(seed);
     const double dx = slip * std::cos(towards), dy = slip * std::sin(towards);
     scenario.effects = {{"part.slip", {{"time_s", 12.0}, {"dx_mm", dx}, {"dy_mm", dy}}},
@@ -138,10 +142,7 @@ TEST(LargeSlip, IsExactToAllOrders) {
 // the slip they are one. The axis was 3 to 9 µm off, beyond 4 u, in each of four.
 TEST(LargeSlip, InASecondSetUpIsSearchedAgain) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-    Scenario scenario = turned_cylinder();
-    scenario.seed = seed;
-    scenario.part.radius_mm = 26.6;
-    scenario.noise.sigma_mm = 0.0005;
+    Scenario scenario = turned_cylinder(seed, 26.6, 0.0005);
     PlannedPass& out = scenario.plan.passes[0];
     out.end_mm = 17.8, out.feed_mm_per_rev = 0.65, out.readings_per_revolution = 30.2;
     PlannedPass back = out, again = out;
@@ -171,10 +172,8 @@ TEST(LargeSlip, InASecondSetUpIsSearchedAgain) {
 // to 2.2 µm off with U 0.5 µm.
 TEST(LargeSlip, BesideTheErrorOfAScaleIsExchangedAboutThePart) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-    Scenario scenario = turned_cylinder();
-    scenario.seed = seed;
-    scenario.noise.sigma_mm = 0.0006;
-    scenario.part.radius_mm = 21.8, scenario.part.x0_mm = 0.09, scenario.part.y0_mm = -0.12;
+    Scenario scenario = turned_cylinder(seed, 21.8, 0.0006);
+    scenario.part.x0_mm = 0.09, scenario.part.y0_mm = -0.12;
     PlannedPass& out = scenario.plan.passes[0];
     out.end_mm = 115.0, out.feed_mm_per_rev = 2.33, out.readings_per_revolution = 29.07;
     PlannedPass back = out;
