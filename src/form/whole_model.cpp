@@ -118,11 +118,13 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections,
   }
   middle_mm_ = 0.5 * (low + high);
   half_mm_ = 0.5 * (high - low);
-  double across = 0.0, squares = 0.0;
+  double mean_mm = 0.0, across = 0.0, squares = 0.0;  // their places need not be even
+  for (const SectionModel& section : sections)
+    mean_mm += *section.z_mm() / static_cast<double>(sections.size());
   for (const SectionModel& section : sections) {
-    const double from_middle = *section.z_mm() - middle_mm_;
-    across += from_middle * section.radius_mm();
-    squares += from_middle * from_middle;
+    const double from_mean = *section.z_mm() - mean_mm;
+    across += from_mean * section.radius_mm();
+    squares += from_mean * from_mean;
   }
   taper_ = across / squares;
   const auto profiles = profiles_of(sections);

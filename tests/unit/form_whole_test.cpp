@@ -16,6 +16,7 @@ namespace {
 
 constexpr double rounding_mm = 1e-9;
 const std::vector<double> five_z{-20.0, -10.0, 0.0, 10.0, 20.0};
+const std::vector<double> uneven_z{-20.0, -15.0, -10.0, 20.0};
 
 double of(const FormResult& result, const char* group, const char* name,
           const char* reference = "") {
@@ -71,20 +72,23 @@ TEST(FormWhole, ABentAxis) {
     EXPECT_NEAR(value_of(section.values, "RONt", "MZCI").estimate.value, 0.0, rounding_mm);
 }
 
-// An axis that leaves the spindle axis by 5 µm + z/1000. Sections are cut at right angles to the
-// spindle: the part's own are ellipses of l²R/2 = 8 nm less, which the part here does not have.
+// An axis that leaves the spindle axis by 5 µm + z/1000, wherever the sections are. These are cut
+// at right angles to the spindle: the part's own are ellipses of l²R/2 = 8 nm less, which the part
+// here does not have.
 TEST(FormWhole, AnAxisBesideTheSpindle) {
   const double l = 1e-3, e = 5e-3;
-  const FormResult result = assess_form(
-      part_stream([&](double t, double z) { return eccentric(15.0, e + l * z, t); }, 360, five_z),
-      quick());
-  const double end = e + 20.0 * l;
-  EXPECT_NEAR(of(result, "datum", "runout_circular"), 2.0 * end, rounding_mm);
-  EXPECT_NEAR(of(result, "datum", "runout_total"), 2.0 * end, rounding_mm);
-  EXPECT_NEAR(of(result, "datum", "coaxiality"), 2.0 * end, rounding_mm);
-  EXPECT_NEAR(of(result, "datum", "parallelism"), 40.0 * l, rounding_mm);
-  EXPECT_NEAR(of(result, "cylindricity", "STRsa"), 0.0, rounding_mm);
-  EXPECT_NEAR(of(result, "cylindricity", "CYLt", "MZCY"), 0.5 * l * l * 15.0, 1e-9);
+  for (const std::vector<double>& z_mm : {five_z, uneven_z}) {
+    const FormResult result = assess_form(
+        part_stream([&](double t, double z) { return eccentric(15.0, e + l * z, t); }, 360, z_mm),
+        quick());
+    const double end = e + 20.0 * l;
+    EXPECT_NEAR(of(result, "datum", "runout_circular"), 2.0 * end, rounding_mm);
+    EXPECT_NEAR(of(result, "datum", "runout_total"), 2.0 * end, rounding_mm);
+    EXPECT_NEAR(of(result, "datum", "coaxiality"), 2.0 * end, rounding_mm);
+    EXPECT_NEAR(of(result, "datum", "parallelism"), 40.0 * l, rounding_mm);
+    EXPECT_NEAR(of(result, "cylindricity", "STRsa"), 0.0, rounding_mm);
+    EXPECT_NEAR(of(result, "cylindricity", "CYLt", "MZCY"), 0.5 * l * l * 15.0, 1e-9);
+  }
 }
 
 // Against a datum that is placed alike, the part is coaxial.
@@ -110,9 +114,11 @@ TEST(FormWhole, AConeThatLeansIsAboutItsAxis) {
     const Revolved shape{{e, 0.0, l, m, 0.0}, 30.0, taper};
     return part_stream([=](double c, double z) { return intersect(shape, c, z).x_mm; }, 360, z_mm);
   };
+  const double end_mm = std::hypot(e + 20.0 * l, -20.0 * m);
   for (const double taper : {0.2, -0.2}) {
+    EXPECT_NEAR(of(assess_form(leaning(taper, uneven_z), quick()), "datum", "coaxiality"),
+                2.0 * end_mm, second_order_mm);
     const ProbeStream part = leaning(taper, five_z);
-    const double end_mm = std::hypot(e + 20.0 * l, -20.0 * m);
     EXPECT_NEAR(of(assess_form(part, quick()), "datum", "coaxiality"), 2.0 * end_mm,
                 second_order_mm);
     for (const double of_datum : {0.0, 0.15, -0.3})
