@@ -28,6 +28,10 @@ std::array<double, 5> lagrange_slopes(const std::array<double, 5>& at, std::size
   return weight;
 }
 
+double from_surface_mm(const FormOptions& options) {
+  return options.bore ? -options.ball_radius_mm : options.ball_radius_mm;
+}
+
 }  // namespace
 
 Derivative::Derivative(const Trace& trace, double longest_step)
@@ -108,6 +112,7 @@ SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
                            const FormOptions& options)
     : trace_(readings, radius_known, options.high_upr),
       z_mm_(readings.z_mm),
+      from_surface_mm_(from_surface_mm(options)),
       turns_(readings.turns),
       readings_(readings.size()),
       trouble_(trace_.trouble()) {
@@ -125,6 +130,7 @@ SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
 SectionModel::SectionModel(StationOfSurface station, bool radius_known, const FormOptions& options)
     : trace_(station.raw, {station.x_mm, station.y_mm, station.mean_mm}, radius_known),
       z_mm_(station.z_mm),
+      from_surface_mm_(from_surface_mm(options)),
       noise_mm_(station.noise_mm),
       shown_mm_(station.noise_mm),
       low_upr_(options.low_upr),
@@ -238,7 +244,7 @@ SectionForm SectionModel::form() const {
     out.criterion = form_criteria[c];
     out.x_mm = x_mm() + circle.x_mm;
     out.y_mm = y_mm() + circle.y_mm;
-    out.radius_mm = circle.radius_mm + (radius_known() ? 0.0 : radius_mm());
+    out.radius_mm = circle.radius_mm + (radius_known() ? -from_surface_mm_ : radius_mm());
     out.why_not = circle.why;
     for (const Nearest::Touch& touch : circle.touches)
       out.touches.push_back({raw().at[touch.reading], touch.multiplier});

@@ -24,17 +24,14 @@ constexpr double least_of_a_section = 8.0;
 constexpr std::size_t fewest_sections = 4;  // of a surface
 constexpr int carries_a_standard = 15;      // UPR: of a section by itself
 
+/// Of the ball's centre: it alone runs on a circle if the part is off-centre (Eq. 269a).
 double spindle_distance(const ProbeStream& stream, const FormOptions& options, std::size_t i) {
+  // On the rear side X_M is negative: the reading is of the point half a turn on.
+  if (stream.indication == Indication::absolute) return std::abs(stream.reading_mm[i]);
+  if (!stream.nominal_radius_mm) return stream.reading_mm[i];
   const double ball_mm =
       options.ball_radius_mm > 0.0 ? options.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
-  const double nominal_mm = stream.indication == Indication::relative && stream.nominal_radius_mm
-                                ? *stream.nominal_radius_mm
-                                : 0.0;
-  const bool positions = stream.indication == Indication::absolute;
-  const double towards = options.bore ? ball_mm : -ball_mm;
-  // On the rear side X_M is negative: the reading is of the point half a turn on.
-  return nominal_mm + std::abs(stream.reading_mm[i]) * (positions ? 1.0 : 0.0) +
-         (positions ? towards : stream.reading_mm[i]);
+  return *stream.nominal_radius_mm + (options.bore ? -ball_mm : ball_mm) + stream.reading_mm[i];
 }
 
 double angle_of(const ProbeStream& stream, std::size_t i) {

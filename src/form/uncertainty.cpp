@@ -189,8 +189,9 @@ std::vector<std::vector<double>> touched(const std::vector<SectionModel>& sectio
   std::vector<std::vector<double>> out;
   for (const SectionModel& section : sections)
     out.push_back(eroded && section.radius_known()
-                      ? touched_by_ball(section.raw(), section.profile_mm(), section.radius_mm(),
-                                        options.ball_radius_mm, options.bore)
+                      ? touched_by_ball(section.raw(), section.profile_mm(),
+                                        section.surface_radius_mm(), options.ball_radius_mm,
+                                        options.bore)
                       : section.profile_mm());
   return out;
 }
