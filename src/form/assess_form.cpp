@@ -140,6 +140,8 @@ class Assessment {
     if (datum.size() > 1) whole_datum_.emplace(datum, of_datum, options.all_references);
   }
 
+  double taper() const { return whole_ ? whole_->taper() : 0.0; }
+
   std::vector<NamedValue> measured(const Profiles& profiles) const {
     std::vector<NamedValue> values;
     for (const SectionModel& section : part_) append(section.measured(), values);
@@ -348,7 +350,7 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
                     return near_with_centres(moved);
                   });
   for (std::size_t s = 0; s < sections.size(); ++s) {
-    result.sections.push_back(sections[s].form());
+    result.sections.push_back(sections[s].form(assessment.taper()));
     const double u = spread[values.size() + s].u;
     for (FormValue& one : result.sections.back().values)
       if (one.name == eccentricity)

@@ -223,7 +223,7 @@ AxisOffset SectionModel::centre(std::span<const double> filtered_mm) const {
   return {x_mm() + q[1], y_mm() + q[2]};
 }
 
-SectionForm SectionModel::form() const {
+SectionForm SectionModel::form(double taper) const {
   SectionForm form;
   form.z_mm = z_mm_;
   form.readings = readings_;
@@ -238,13 +238,14 @@ SectionForm SectionModel::form() const {
     form.points_per_cycle = station_->points_per_cycle;
     form.gaps_rad = station_->gaps_rad;
   }
+  const double from_surface = from_surface_mm_ * std::hypot(1.0, taper);
   for (std::size_t c = 0; c < circles_.size(); ++c) {
     const AssociatedCircle& circle = circles_[c];
     FormCircle& out = form.circles.emplace_back();
     out.criterion = form_criteria[c];
     out.x_mm = x_mm() + circle.x_mm;
     out.y_mm = y_mm() + circle.y_mm;
-    out.radius_mm = circle.radius_mm + (radius_known() ? -from_surface_mm_ : radius_mm());
+    out.radius_mm = circle.radius_mm + (radius_known() ? -from_surface : radius_mm());
     out.why_not = circle.why;
     for (const Nearest::Touch& touch : circle.touches)
       out.touches.push_back({raw().at[touch.reading], touch.multiplier});

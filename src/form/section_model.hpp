@@ -83,7 +83,8 @@ class SectionModel {
   AxisOffset centre(std::span<const double> filtered_mm) const;
 
   /// Everything of the section but the uncertainty of `values`.
-  SectionForm form() const;
+  /// @param taper of the part's radius along Z: a ball's centre is further from a cone; Eq. 10
+  SectionForm form(double taper) const;
 
   /// Orders of the readings before the filter, as far as these carry.
   const std::vector<Order>& orders() const { return orders_; }

@@ -57,6 +57,8 @@ class WholeModel {
   AxisLine axis_near(const std::vector<std::vector<double>>& filtered_mm,
                      Criterion criterion) const;
 
+  double taper() const { return taper_; }
+
   /// Why the axis of a criterion may rock: the cylinder rests on less than a quarter of the length
   /// (a tapered shaft touches at one end). Empty: it does not.
   std::string rocking(Criterion criterion) const;

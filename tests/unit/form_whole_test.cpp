@@ -132,6 +132,21 @@ TEST(FormWhole, AConeThatLeansIsAboutItsAxis) {
   }
 }
 
+// A ball's centre is further from a cone by 1/cos α: by 20 µm here. Eq. 10.
+TEST(FormWhole, TheRadiusOfAConeThatABallReads) {
+  const double taper = 0.2, ball_mm = 1.0, radius_mm = 30.0;
+  const Revolved of_centre{{}, radius_mm + ball_mm * std::hypot(1.0, taper), taper};
+  FormOptions options = quick();
+  options.ball_radius_mm = ball_mm;
+  const FormResult result =
+      assess_form(part_stream([&](double c, double z) { return intersect(of_centre, c, z).x_mm; },
+                              360, uneven_z),
+                  options);
+  for (const SectionForm& section : result.sections)
+    EXPECT_NEAR(value_of(section.values, "radius").estimate.value,
+                radius_mm + taper * *section.z_mm, rounding_mm);
+}
+
 // A helix of 0.5 mm a turn on a tilted cone: the turns are as round as the cone.
 TEST(FormWhole, AHelixIsCutIntoTurns) {
   const double s = 0.02, l = 2e-4;
