@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -109,6 +111,16 @@ std::optional<Whole> whole_number(std::string_view text) {
 /// What one in the n-th significant digit of a value above 0 is worth: of 1234 the second 100.
 inline double digit_worth(double value, int n) {
   return std::pow(10.0, std::floor(std::log10(value)) + (1 - n));
+}
+
+/// What a reader sees of a formatted number: 1803 instead of 1.8e+03.
+inline std::string without_exponent(std::string text, double value) {
+  return text.find("e+") == std::string::npos ? text : fmt::format("{:.0f}", value);
+}
+
+/// So many significant digits, and all before the point.
+inline std::string significant(double value, int digits) {
+  return without_exponent(fmt::format("{:.{}g}", value, digits), value);
 }
 
 /// The shortest text that reads back as the same number, appended.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/number.hpp"
 #include "fit/mend_columns.hpp"
 #include "fit/plausible.hpp"
 #include "math/statistics.hpp"
@@ -125,7 +126,7 @@ constexpr Misreading misreadings[] = {
      "a probe",
      "check both columns", &Suspicion::leaves_much, false, turn_as_reading_does}};
 
-std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }
+std::string um_text(double length_mm) { return significant(length_mm / mm_per_um, 3) + " µm"; }
 
 }  // namespace
 
@@ -141,8 +142,9 @@ double left_mm(const ProbeStream& stream, const FitResult& fit) {
 std::string turns_text(const ProbeStream& stream) {
   const Extent c = range_of(stream.c_rad);
   const double turns = c.length() / two_pi, travel = travel_mm(stream);
-  std::string text = fmt::format("C from {:.4g}° to {:.4g}°, {:.3g} revolutions",
-                                 c.low / rad_per_deg, c.high / rad_per_deg, turns);
+  std::string text =
+      fmt::format("C from {}° to {}°, {} revolutions", significant(c.low / rad_per_deg, 4),
+                  significant(c.high / rad_per_deg, 4), significant(turns, 3));
   return travel > 0.0 ? text + fmt::format(", {:.3g} per mm", turns / travel) : text;
 }
 

@@ -263,7 +263,8 @@ std::string_view template_of(ReasonCode code) {
        "more than {times::.0f} times the readings would be needed: use a quieter sensor"},
       {hidden_cause,
        "no number of readings proves it: {effect}, which these passes do not show, leaves "
-       "{open:um:.2g} µm of the axis unknown<. {what}><. Or state {stated_as} in the job>"},
+       "{open:um:.2g} µm of the axis unknown<. To show it, {what}><. Or state {stated_as} in the "
+       "job>"},
       {measurement_would_prove, "readings alone do not prove it: {what}"},
       {nothing_proves,
        "no number of readings proves it: the compromise, the stated influences and the rival "

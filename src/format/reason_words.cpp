@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -20,7 +21,7 @@ namespace {
 std::string shown(double value, std::string_view how) {
   if (how == "two") return fmt::format("{:.{}f}", value, decimals_of(value, 0));
   if (how == "one") return fmt::format("{:.{}f}", value, value < 10.0 ? 1 : 0);
-  return fmt::format(fmt::runtime("{:" + std::string(how) + "}"), value);
+  return without_exponent(fmt::format(fmt::runtime("{:" + std::string(how) + "}"), value), value);
 }
 
 /// "12.3 µm" or "1.25 mm"

@@ -86,6 +86,14 @@ TEST(TextKit, APercentageNeverRoundsToCertainty) {
   EXPECT_EQ(layout::percent_of(0.0004), "< 0.1 %");
 }
 
+TEST(TextKit, ALargeNumberHasNoExponent) {
+  EXPECT_EQ(significant(1803.4, 3), "1803");
+  EXPECT_EQ(significant(999.7, 3), "1000");
+  EXPECT_EQ(significant(-943.0, 2), "-943");
+  EXPECT_EQ(significant(94.26, 3), "94.3");
+  EXPECT_EQ(significant(0.00004, 2), "4e-05");
+}
+
 TEST(TextKit, WhatIsWrongWithSeveralIsThrownTogetherUnderTheNameOfItsFile) {
   const auto read = [](const std::string& name) {
     if (name != "good") throw InputError(name, "is bad");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/counted.hpp"
+#include "base/number.hpp"
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "fit/files/fit_files.hpp"
 #include "format/text_layout.hpp"
@@ -51,8 +52,9 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
 }
 
 std::string tool_screen(const ActuatorMargin& margin) {
-  return fmt::format("tool   The table uses {:.3g} of {:.3g} µm stroke, {}\n",
-                     margin.stroke_used_mm / mm_per_um, margin.stroke_available_mm / mm_per_um,
+  return fmt::format("tool   The table uses {} of {} µm stroke, {}\n",
+                     significant(margin.stroke_used_mm / mm_per_um, 3),
+                     significant(margin.stroke_available_mm / mm_per_um, 3),
                      margin.follows
                          ? "the actuator follows to " + (margin.following_mm < least_mm
                                                              ? "less than " + um(least_mm)

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/angle.hpp"
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
@@ -100,6 +101,8 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
   return reference;
 }
 
+constexpr double largest_tolerance_mm = 5.0;  // beyond it µm were meant
+
 TargetSurface read_target(TomlTable table, Job& job) {
   TargetSurface target;
   target.kind = table.required_choice<TargetKind>(
@@ -130,7 +133,7 @@ TargetSurface read_target(TomlTable table, Job& job) {
   }
   job.coaxiality_tolerance_mm = table.maybe_number(
       target.kind == TargetKind::face ? "runout_tolerance_mm" : "coaxiality_tolerance_mm",
-      Range::positive());
+      {.low = 0.0, .high = largest_tolerance_mm, .low_open = true});
   job.stock_mm = table.maybe_number("stock_mm", Range::positive());
   const bool face = target.kind == TargetKind::face;
   target.run_in_mm = table.number("run_in_mm", 0.0, Range::non_negative());
@@ -144,14 +147,22 @@ TargetSurface read_target(TomlTable table, Job& job) {
   return target;
 }
 
-constexpr double most_turns = 1e6;  // of C: a double then tells 1e-9 rad
+constexpr double largest_nose_mm = 50.0;  // beyond it µm were meant
+constexpr double most_turns = 1e6;        // of C: a double then tells 1e-9 rad
 
 ToolSetup read_tool(TomlTable table) {
   ToolSetup tool;
-  tool.nose_radius_mm = table.number("nose_radius_mm", tool.nose_radius_mm, Range::non_negative());
+  tool.nose_radius_mm =
+      table.number("nose_radius_mm", tool.nose_radius_mm, Range::between(0.0, largest_nose_mm));
   tool.height_mm = table.number("tool_height_mm", tool.height_mm);
   tool.angle_from_probe_rad = table.number("angle_from_probe_rad", tool.angle_from_probe_rad,
                                            Range::between(-two_pi, two_pi));
+  const double angle_deg = tool.angle_from_probe_rad / rad_per_deg;
+  if (std::ranges::count(table.keys(), "angle_from_probe_deg") && is_quarters_in_radians(angle_deg))
+    table.complain(
+        "angle_from_probe_rad",
+        "looks like quarters of a turn in radians: write angle_from_probe_rad. If degrees are "
+        "meant, write them in radians");
   tool.speed_rpm = table.required_number("speed_rpm", Range::positive());
   tool.sense = table.required_choice<int>("sense", {{"+c", 1}, {"-c", -1}});
   tool.feed_mm_per_rev = table.required_number("feed_mm_per_rev", Range::positive());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/number.hpp"
 #include "math/statistics.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
@@ -117,13 +118,13 @@ void refuse_impossible_speed(const CsvHeader& header, const ProbeStream& stream,
   const double sense = stream.c_rad.back() < stream.c_rad.front() ? -1.0 : 1.0;
   const double rpm = speeds[speeds.size() / 2];
   diagnostics.add(header.line, time.character,
-                  fmt::format("C and t give {:.4g} rpm, {:.3g} s per revolution: {}. If the "
-                              "spindle really turns like that, write '# spindle_rpm: {:.4g}'",
-                              rpm, 60.0 / rpm,
+                  fmt::format("C and t give {} rpm, {} s per revolution: {}. If the spindle really "
+                              "turns like that, write '# spindle_rpm: {}'",
+                              significant(rpm, 4), significant(60.0 / rpm, 3),
                               slow && time.unit.factor == 1.0     ? milliseconds
                               : !slow && time.unit.factor == 1e-3 ? seconds
                                                                   : "check the units of C and t",
-                              sense * rpm));
+                              significant(sense * rpm, 4)));
 }
 
 /// The usual speed that C and t give, which neither a dwell nor a second speed is, is that of

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "base/angle.hpp"
 #include "base/number.hpp"
 #include "format/csv_text.hpp"
 #include "format/units.hpp"
@@ -51,15 +52,13 @@ constexpr Quantity quantities[] = {
 /// Of an angle that was understood: whether it looks like one in another unit; empty: it does not.
 std::string unit_trouble(std::string_view value) {
   constexpr double most_turns = 3.0;  // of steps that add up
-  constexpr double rounded = 4e-3;    // 1.57, 3.14, 4.71 and 6.28 are quarters of a turn
   const auto said = number_with_unit(value);
   const auto unit = find_unit(UnitKind::angle, said->unit);
   const double size = std::abs(said->value);
   if (size > most_turns * unit->turn)
     return unit->turn != 360.0 ? " is more than three turns, which looks like degrees: write deg"
                                : " is more than three turns: write it without the whole turns";
-  if (unit->turn == 360.0 && size > rounded && size < two_pi + rounded &&
-      std::abs(std::remainder(size, 0.25 * two_pi)) < rounded)
+  if (unit->turn == 360.0 && is_quarters_in_radians(size))
     return " is quarters of a turn in radians: write rad. If degrees are meant, write them in rev";
   return "";
 }
