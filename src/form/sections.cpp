@@ -13,6 +13,7 @@
 #include "form/section_trace.hpp"
 #include "form/stream_checks.hpp"
 #include "math/statistics.hpp"
+#include "measure/centre_of_ball.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
@@ -24,31 +25,39 @@ constexpr double least_of_a_section = 8.0;
 constexpr std::size_t fewest_sections = 4;  // of a surface
 constexpr int carries_a_standard = 15;      // UPR: of a section by itself
 
-/// Of the ball's centre: it alone runs on a circle if the part is off-centre (Eq. 269a).
-double spindle_distance(const ProbeStream& stream, const FormOptions& options, std::size_t i) {
-  // On the rear side X_M is negative: the reading is of the point half a turn on.
-  if (stream.indication == Indication::absolute) return std::abs(stream.reading_mm[i]);
-  if (!stream.nominal_radius_mm) return stream.reading_mm[i];
-  const double ball_mm =
-      options.ball_radius_mm > 0.0 ? options.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
-  return *stream.nominal_radius_mm + (options.bore ? -ball_mm : ball_mm) + stream.reading_mm[i];
-}
+/// Where the ball's centre is about the spindle axis, without the spindle's known motion. It runs
+/// on a circle if the part is off-centre (Eq. 269a).
+class CentrePath {
+ public:
+  CentrePath(const ProbeStream& stream, const FormOptions& options)
+      : stream_(stream),
+        options_(options),
+        behind_(is_probed_behind(stream)),
+        at_zero_mm_(centre_at_zero_mm(stream,
+                                      options.ball_radius_mm > 0.0
+                                          ? options.ball_radius_mm
+                                          : stream.ball_radius_mm.value_or(0.0),
+                                      options.bore)) {}
 
-double angle_of(const ProbeStream& stream, std::size_t i) {
-  const bool behind = stream.indication == Indication::absolute && stream.reading_mm[i] < 0.0;
-  return stream.c_rad[i] + (behind ? 0.5 * two_pi : 0.0);
-}
+  /// On the rear side a reading is of the point half a turn on.
+  double angle_rad(std::size_t i) const {
+    return stream_.c_rad[i] + (behind_ ? 0.5 * two_pi : 0.0);
+  }
 
-/// Distance from the spindle axis without the motion that is known of it: a probe at +X reads it,
-/// at −X its opposite.
-double part_distance(const ProbeStream& stream, const FormOptions& options, std::size_t i) {
-  const bool behind = stream.indication == Indication::absolute && stream.reading_mm[i] < 0.0;
-  double motion = 0.0;
-  for (const SpindleOrder& one : options.spindle)
-    motion += one.cos_mm * std::cos(one.order * stream.c_rad[i]) +
-              one.sin_mm * std::sin(one.order * stream.c_rad[i]);
-  return spindle_distance(stream, options, i) - (behind ? -motion : motion);
-}
+  double distance_mm(std::size_t i) const {
+    double x_mm = at_zero_mm_ + stream_.reading_mm[i];
+    for (const SpindleOrder& one : options_.spindle)
+      x_mm -= one.cos_mm * std::cos(one.order * stream_.c_rad[i]) +
+              one.sin_mm * std::sin(one.order * stream_.c_rad[i]);
+    return behind_ ? -x_mm : x_mm;
+  }
+
+ private:
+  const ProbeStream& stream_;
+  const FormOptions& options_;
+  bool behind_;
+  double at_zero_mm_;
+};
 
 /// Readings by their Z, where Z stands still long enough; empty: it runs on.
 std::vector<std::vector<std::size_t>> by_position(const ProbeStream& stream) {
@@ -96,10 +105,11 @@ bool has_radius(const ProbeStream& stream) {
 SectionReadings readings_of(const ProbeStream& stream, const FormOptions& options,
                             const std::vector<std::size_t>& which) {
   SectionReadings section;
+  const CentrePath path(stream, options);
   double z = 0.0, low = 1e300, high = -1e300;
   for (const std::size_t i : which) {
-    section.angle_rad.push_back(angle_of(stream, i));
-    section.distance_mm.push_back(part_distance(stream, options, i));
+    section.angle_rad.push_back(path.angle_rad(i));
+    section.distance_mm.push_back(path.distance_mm(i));
     if (stream.has_position()) z += stream.position_mm[i] / static_cast<double>(which.size());
     low = std::min(low, stream.c_rad[i]);
     high = std::max(high, stream.c_rad[i]);
@@ -156,9 +166,10 @@ void take_off_slope(const ProbeStream& stream, const std::vector<std::vector<std
 SurfaceReadings surface_readings(const ProbeStream& stream, const FormOptions& options) {
   expect_sections(stream);
   SurfaceReadings out;
+  const CentrePath path(stream, options);
   for (std::size_t i = 0; i < stream.size(); ++i) {
-    out.angle_rad.push_back(angle_of(stream, i));
-    out.distance_mm.push_back(part_distance(stream, options, i));
+    out.angle_rad.push_back(path.angle_rad(i));
+    out.distance_mm.push_back(path.distance_mm(i));
   }
   out.z_mm = stream.position_mm;
   out.radius_known = has_radius(stream);

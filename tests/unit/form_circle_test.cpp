@@ -114,26 +114,34 @@ TEST(FormCircle, AnEccentricCircleIsRound) {
               rounding_mm);
 }
 
-// So is one that a ball reads, from outside and from inside: the ball's centre runs on a circle of
-// radius 10 ± 2 mm. Distances less 2 mm would be two undulations of e²/4 (1/10 − 1/12) = 0.4 µm
-// off. A gauge reads what is more than at its nominal radius.
+// So is one that a ball reads, from outside and from inside, in front and on the rear side: the
+// ball's centre runs on a circle of radius 10 ± 2 mm. Distances less 2 mm would be two undulations
+// of e²/4 (1/10 − 1/12) = 0.4 µm off. A gauge is at 0 where the surface is at its nominal radius;
+// taken from the wrong side it would be e²/2R off.
 TEST(FormCircle, AnEccentricCircleIsRoundToABall) {
   const double radius_mm = 10.0, ball_mm = 2.0, e_mm = 0.3;
   for (const bool bore : {false, true})
-    for (const bool gauge : {false, true}) {
-      const double of_centre_mm = bore ? radius_mm - ball_mm : radius_mm + ball_mm;
-      ProbeStream stream = section_stream(
-          [&](double t) { return eccentric(of_centre_mm, e_mm, t) - (gauge ? of_centre_mm : 0.0); },
-          1000);
-      if (gauge) stream.indication = Indication::relative, stream.nominal_radius_mm = radius_mm;
-      FormOptions options = quick();
-      options.bore = bore, options.ball_radius_mm = ball_mm;
-      const auto values = assess_form(stream, options).sections[0].values;
-      for (const char* circle : circles)
-        EXPECT_NEAR(value_of(values, "RONt", circle).estimate.value, 0.0, rounding_mm) << circle;
-      EXPECT_NEAR(value_of(values, "eccentricity").estimate.value, e_mm, rounding_mm);
-      EXPECT_NEAR(value_of(values, "radius").estimate.value, radius_mm, rounding_mm);
-    }
+    for (const bool gauge : {false, true})
+      for (const bool rear : {false, true}) {
+        const double of_centre_mm = bore ? radius_mm - ball_mm : radius_mm + ball_mm;
+        ProbeStream stream = section_stream(
+            [&](double c) {
+              const double from_zero = gauge ? of_centre_mm : 0.0;
+              return rear ? from_zero - eccentric(of_centre_mm, e_mm, c + 0.5 * two_pi)
+                          : eccentric(of_centre_mm, e_mm, c) - from_zero;
+            },
+            1000);
+        if (gauge) stream.indication = Indication::relative, stream.nominal_radius_mm = radius_mm;
+        stream.setups.front().rear = rear;
+        FormOptions options = quick();
+        options.bore = bore, options.ball_radius_mm = ball_mm;
+        const auto values = assess_form(stream, options).sections[0].values;
+        for (const char* circle : circles)
+          EXPECT_NEAR(value_of(values, "RONt", circle).estimate.value, 0.0, rounding_mm)
+              << circle << (bore ? " bore" : " shaft") << gauge << rear;
+        EXPECT_NEAR(value_of(values, "eccentricity").estimate.value, e_mm, rounding_mm);
+        EXPECT_NEAR(value_of(values, "radius").estimate.value, radius_mm, rounding_mm);
+      }
 }
 
 // Pure orders through the Gaussian filter: RONt = 2a · 2^−(n/50)², band-pass T₂(1 − T₁).

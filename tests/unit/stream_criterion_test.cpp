@@ -104,6 +104,32 @@ TEST(StreamCriterion, ThreeLobesOnACylinderHaveTheValuesOfTheirAmplitude) {
             std::string::npos);
 }
 
+// A gauge is at 0 where the surface is at its nominal radius: the ball's centre is then a ball
+// further out, or in in a bore, and on the rear side at −X.
+TEST(StreamCriterion, AGaugeReadsWhatIsMoreThanItsNominalRadius) {
+  const double radius = 20.0, ball = 1.5, nominal = 19.9;
+  for (const bool bore : {false, true})
+    for (const bool rear : {false, true}) {
+      const double out = bore ? -ball : ball, sign = rear ? -1.0 : 1.0;
+      ProbeStream gauge = through(revolved(radius + out, 0.0, 0.0));
+      for (std::size_t i = 0; i < gauge.size(); ++i) {
+        if ((gauge.reading_mm[i] < 0.0) != rear)  // the same point half a turn on
+          gauge.reading_mm[i] *= -1.0, gauge.c_rad[i] += 0.5 * turn;
+        gauge.reading_mm[i] -= sign * (nominal + out);
+      }
+      gauge.indication = Indication::relative;
+      gauge.nominal_radius_mm = nominal;
+      gauge.setups.front().rear = rear;
+      const StreamAssociation got =
+          associate_stream(gauge, SurfaceKind::cylinder, Criterion::minimum_zone,
+                           {.bore = bore, .ball_radius_mm = ball});
+      EXPECT_NEAR(number_of(got, "x0"), 0.03, 100.0 * rounding_mm);
+      EXPECT_NEAR(number_of(got, "y0"), -0.02, 100.0 * rounding_mm);
+      EXPECT_NEAR(number_of(got, "radius"), radius, 100.0 * rounding_mm);
+      EXPECT_NEAR(got.of_surface.zone_mm, 0.0, 100.0 * rounding_mm);
+    }
+}
+
 TEST(StreamCriterion, AFaceLiesABallBelowItsCentres) {
   ProbeStream face;
   face.kind = StreamKind::face;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "measure/centre_of_ball.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -59,7 +60,8 @@ StreamPoints points_of_stream(const ProbeStream& stream, SurfaceKind surface,
         "TrueAxis assumes that X_M is the contact. If it is a ball's centre, give "
         "--ball-radius-mm: "
         "the cone is then smaller by the radius over the cosine of its half angle");
-  const double nominal = relative ? *stream.nominal_radius_mm : 0.0;
+  const double at_zero_mm =
+      face ? 0.0 : centre_at_zero_mm(stream, out.ball_radius_mm, options.bore);
   out.points_mm.reserve(stream.size());
   for (std::size_t i = 0; i < stream.size(); ++i) {
     const double c = std::cos(stream.c_rad[i]), s = std::sin(stream.c_rad[i]);
@@ -67,7 +69,7 @@ StreamPoints points_of_stream(const ProbeStream& stream, SurfaceKind surface,
       const double x = stream.position_mm[i];
       out.points_mm.push_back({x * c, x * s, stream.reading_mm[i]});
     } else {
-      const double x = nominal + stream.reading_mm[i];
+      const double x = at_zero_mm + stream.reading_mm[i];
       out.points_mm.push_back({x * c, x * s, section ? 0.0 : stream.position_mm[i]});
     }
   }
