@@ -211,6 +211,11 @@ const FitResult& fit_used(const IdentifiedJob& job, std::size_t reference);
 /// Whether every tolerance of form is proven met. The verdict is of the cut and does not hold them.
 bool forms_met(const JobResult& result);
 
+/// The least coaxiality that the cut has as it was probed again, if it is beyond the tolerance (ISO
+/// 14253-1): twice its distance from the target axis less U. (No axis is nearer to all references
+/// than the target axis, so to one of them it is at least that.)
+std::optional<double> coaxiality_of_cut_not_met_mm(const JobResult& result);
+
 /// Fit, diagnosis, form, the diagnosed measured again by the virtual lathe, target axis,
 /// correction, and the verdict, which is final. `streams` are one per reference. If the cut is
 /// refused (a tool that does not meet the target), the verdict has the reason and nothing is

@@ -33,7 +33,9 @@ namespace {
 int exit_code_of_job(const JobResult& result) {
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  return !fitted ? numerical : result.verdict.go() && forms_met(result) ? done : refused;
+  if (!fitted) return numerical;
+  const bool met = forms_met(result) && !coaxiality_of_cut_not_met_mm(result);
+  return result.verdict.go() && met ? done : refused;
 }
 
 /// "shaft_result" of data/shaft.toml, where the command is run.

@@ -78,6 +78,13 @@ bool forms_met(const JobResult& result) {
   return std::ranges::all_of(result.forms, &PartForm::met);
 }
 
+std::optional<double> coaxiality_of_cut_not_met_mm(const JobResult& result) {
+  const auto& tolerance_mm = result.job.coaxiality_tolerance_mm;
+  if (!result.feedback || !result.feedback->seen || !tolerance_mm) return {};
+  const double least_mm = 2.0 * (result.feedback->off_mm - result.feedback->U_off_mm);
+  return least_mm > *tolerance_mm ? std::optional(least_mm) : std::nullopt;
+}
+
 JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   expects(job.references.size() == streams.size() && !streams.empty(), "one stream per reference");
   IdentifiedJob found = identified(std::move(job), std::move(streams));

@@ -86,6 +86,23 @@ class MachineFeedback : public CommandTest {
   }
 };
 
+// The lathe is more than 5 % off, of an eccentricity of at least 0.1 mm: more than 10 µm, a
+// diameter, at U of some 0.1 µm. A script that acts on the exit code must not take this part.
+TEST_F(MachineFeedback, ACutBeyondItsToleranceIsNotMet) {
+  std::mt19937_64 random(11);
+  const ShopLathe lathe;
+  ASSERT_EQ(plan(1, lathe, drawn_part(random), "").exit_code, 0);
+  cut(1, lathe);
+  EXPECT_EQ(verify(1, "").out.find("NOT MET"), std::string::npos) << "of 100 µm";
+  std::string narrow = job(1, true);
+  narrow.replace(narrow.find("tolerance_um = 100"), 18, "tolerance_um = 8");
+  file("cut_1.toml", narrow);
+  const CommandStreams verified = verify(1, "");
+  EXPECT_EQ(verified.exit_code, 1) << verified.out << verified.err;
+  EXPECT_NE(verified.out.find("cut    NOT MET, coaxiality at least "), std::string::npos)
+      << verified.out;
+}
+
 /// The axis of the cut over that of the part, at the middle of the cut: 1 is a true one.
 std::complex<double> ratio(const ShopLathe::Cut& cut, const ShopLathe::Part& part) {
   const double z = 0.5 * (z_low + z_high);

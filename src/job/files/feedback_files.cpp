@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/counted.hpp"
+#include "base/number.hpp"
 #include "correct/files/table_files.hpp"
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
@@ -324,10 +325,14 @@ std::string feedback_screen(const JobResult& result) {
     text += fmt::format("loop   The table is corrected for what {} showed of the machine: {}\n",
                         counted(static_cast<std::size_t>(f.before.parts), "part"),
                         percent_and_degrees(result.job.loop));
+  const std::optional<double> least_mm = coaxiality_of_cut_not_met_mm(result);
   if (f.seen)
     text += fmt::format(
-        "cut    As probed again, its axis is {:.2g} ± {:.2g} µm off the target axis\n"
+        "cut    {}s probed again, its axis is {:.2g} ± {:.2g} µm off the target axis\n"
         "loop   Learned from {}, for the next table: {}\n",
+        least_mm ? fmt::format("NOT MET, coaxiality at least {} µm: a",
+                               significant(*least_mm / mm_per_um, 2))
+                 : "A",
         f.off_mm / mm_per_um, f.U_off_mm / mm_per_um,
         counted(static_cast<std::size_t>(f.after.parts), "part"),
         percent_and_degrees(response_of(f.after, f.prior)));
