@@ -100,7 +100,7 @@ std::string_view template_of(ReasonCode code) {
        "check which feature is a shaft and which is a bore"},
       {cuts_air,
        "the target cuts air: at {along} = {at::.6g} mm, C = {c:deg:.4g}° the probed surface of "
-       "{name} has {material:length} over it (U = {material.U:length})"},
+       "{name} is {material:missing} short of it (U = {material.U:length})"},
       {may_cut_air,
        "the target may cut air: at {along} = {at::.6g} mm, C = {c:deg:.4g}° the probed surface "
        "of {name} has {material:length} over it (U = {material.U:length})"},

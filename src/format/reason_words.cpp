@@ -120,6 +120,7 @@ class Words {
                            digits = how.substr(std::min(colon + 1, how.size()));
     if (unit == "usual") return usual(one);
     if (unit == "length") return length(its_U ? one.U : one.value);
+    if (unit == "missing") return length(-one.value);
     const double value = in_unit(its_U ? one.U : one.value, unit), U = in_unit(one.U, unit);
     if (digits == "pm")
       return fmt::format("{:.{}f} ± {:.{}f}", value, decimals_of(U, 1), U, decimals_of(U, 1));

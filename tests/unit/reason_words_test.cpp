@@ -100,9 +100,10 @@ TEST(ReasonWords, AReasonAsDataHasItsCodeNumbersAndUnits) {
   EXPECT_DOUBLE_EQ(json.at("numbers").at("c").at("value"), 180.0);
   EXPECT_EQ(json.at("numbers").at("material").at("U"), 0.02);
   EXPECT_EQ(json.at("names").at("along"), "Z");
-  EXPECT_EQ(json.at("words"),
-            "the target cuts air: at Z = 12 mm, C = 180° the probed surface of seat has -100 µm "
-            "over it (U = 20 µm)");
+  EXPECT_EQ(
+      json.at("words"),
+      "the target cuts air: at Z = 12 mm, C = 180° the probed surface of seat is 100 µm short "
+      "of it (U = 20 µm)");
 }
 
 TEST(Checks, EachHasItsOwnNameAndSaysWhereItsLimitsComeFrom) {
