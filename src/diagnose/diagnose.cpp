@@ -18,6 +18,7 @@
 #include "diagnose/explain/quality.hpp"
 #include "diagnose/explain/stated.hpp"
 #include "diagnose/refit/delay_instead.hpp"
+#include "diagnose/refit/searched.hpp"
 #include "fit/plausible.hpp"
 #include "measure/angles_alike.hpp"
 #include "trueaxis/diagnosis.hpp"
@@ -196,34 +197,21 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
   if (!is_diagnosable(out.baseline)) return not_diagnosable(std::move(out));
 
   const IdealModel ideal(stream, options, out.baseline, indicated);
-  CoarseToFineSearch search(ideal.problem);
-  std::optional<Timing> timing;
-  std::unique_ptr<RelinearisedFit> refit = relinearise(ideal, search.model, timing);
-  const std::unique_ptr<RelinearisedFit> slipped = after_first_step(ideal, search.model);
-  if (slipped) {
-    const Model before = search.model;
-    search.again(slipped->problem());
-    std::optional<Timing> of_other;
-    auto other = relinearise(ideal, search.model, of_other);
-    if (other->criterion() < refit->criterion())
-      refit = std::move(other), timing = of_other;
-    else
-      search.model = before;
-  }
+  Searched found = searched(ideal);
+  CoarseToFineSearch& search = *found.search;
+  std::unique_ptr<RelinearisedFit>& refit = found.fit;
   Explanation explanation;
   for_each_index(2, threads, [&](std::size_t k) {
-    if (k == 0) explanation = explain(search, *refit, timing);
+    if (k == 0) explanation = explain(search, *refit, found.timing);
     if (k == 1) refit->fit_surface();
   });
-  while (slipped) {
-    std::optional<Model> other = with_likeliest_rival(search.model, explanation);
-    if (!other) break;
+  while (std::optional<Model> other = with_likeliest_rival(search.model, explanation)) {
     std::optional<Timing> of_other;
     auto rival = relinearise(ideal, *other, of_other);
     if (!(rival->criterion() < refit->criterion())) break;
-    search.about(slipped->problem());  // not the part that goes
-    search.model = std::move(*other), refit = std::move(rival), timing = of_other;
-    explanation = explain(search, *refit, timing);
+    search.about(*found.about);  // not the part that goes
+    search.model = std::move(*other), refit = std::move(rival), found.timing = of_other;
+    explanation = explain(search, *refit, found.timing);
     refit->fit_surface();
   }
 

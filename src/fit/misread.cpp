@@ -8,6 +8,7 @@
 #include "base/number.hpp"
 #include "fit/mend_columns.hpp"
 #include "fit/plausible.hpp"
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -128,6 +129,23 @@ constexpr Misreading misreadings[] = {
 
 std::string um_text(double length_mm) { return significant(length_mm / mm_per_um, 3) + " µm"; }
 
+/// RMS of what a + b Z + c cos C + d sin C leaves. That is the surface to first order and needs no
+/// start, from which the fit of a short arc may go astray.
+double left_by_first_order_mm(const ProbeStream& stream) {
+  const auto n = static_cast<Eigen::Index>(stream.size());
+  Eigen::MatrixXd columns(n, stream.has_position() ? 4 : 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    columns(i, 0) = 1.0;
+    columns(i, 1) = std::cos(stream.c_rad[k]), columns(i, 2) = std::sin(stream.c_rad[k]);
+    if (stream.has_position()) columns(i, 3) = stream.position_mm[k];
+  }
+  const Eigen::VectorXd left = linear::beside(
+      linear::orthonormal_basis(columns),
+      Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(stream.reading_mm.data(), n)));
+  return left.norm() / std::sqrt(static_cast<double>(n));
+}
+
 }  // namespace
 
 double left_mm(const ProbeStream& stream, const FitResult& fit) {
@@ -165,6 +183,7 @@ std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, c
     if (again.status != FitStatus::converged || !(again.rms_mm < one.better * before_mm) ||
         again.points < 2 * again.parameters.size() + 10)
       continue;
+    if (!(again.rms_mm < one.better * left_by_first_order_mm(stream))) continue;
     return fmt::format("{}: {}. As written the residuals are {} RMS ({}), otherwise {} ({})",
                        one.what, one.remedy, um_text(before_mm), turns_text(stream),
                        um_text(again.rms_mm), turns_text(right));

@@ -15,6 +15,7 @@
 #include "axis/axis_case.hpp"
 #include "base/threads.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
+#include "measure/files/stream_csv_write.hpp"
 
 using namespace trueaxis;
 
@@ -34,7 +35,8 @@ std::string line_of(std::string_view group, const axis::Outcome& o) {
 }
 
 /// One case for a person: what was drawn, where the axis is, what the diagnosis says of it.
-void show(axis::Group group, std::uint64_t seed) {
+/// @param csv the stream; empty: it is not written
+void show(axis::Group group, std::uint64_t seed, const std::string& csv) {
   const axis::Case of = axis::draw_case(group, seed);
   fmt::print("{} {}, {}, {}, {}, R {:.2f} mm, half angle {:.2f} deg, Z {:.1f} to {:.1f} mm\n",
              axis::name_of(group), seed, blind::to_string(of.plan), of.surface, of.side,
@@ -47,7 +49,9 @@ void show(axis::Group group, std::uint64_t seed) {
     for (const auto& [name, value] : effect.parameters) fmt::print("  {} {:.6g}", name, value);
     fmt::print("\n");
   }
-  const Diagnosis d = axis::diagnosed(of, virtual_lathe::simulate(of.scenario));
+  const ProbeStream stream = virtual_lathe::simulate(of.scenario);
+  if (!csv.empty()) write_stream_csv(stream, csv);
+  const Diagnosis d = axis::diagnosed(of, stream);
   for (const auto& [name, fit] :
        {std::pair("ideal", &d.baseline), {"named", &d.named}, {"stated", &d.extended}}) {
     const axis::Judged judged = axis::judge(of, fit->axis);
@@ -73,7 +77,7 @@ int main(int argc, char** argv) {
   app.add_option("--only", only, "groups: mixture slip outside absorbed noise known");
   app.add_option("--threads", threads, "streams at a time; 0: as many as there are processors");
   std::optional<std::uint64_t> shown;
-  app.add_option("--csv", csv, "a line a stream");
+  app.add_option("--csv", csv, "a line a stream; with --show the stream itself");
   app.add_option("--show", shown, "instead: the case of this seed for a person, of each group");
   CLI11_PARSE(app, argc, argv);
   const auto wanted = [&](axis::Group group) {
@@ -81,7 +85,7 @@ int main(int argc, char** argv) {
   };
   if (shown) {
     for (const axis::Group group : axis::groups)
-      if (wanted(group)) show(group, *shown);
+      if (wanted(group)) show(group, *shown, csv);
     return 0;
   }
   std::ofstream out(csv);

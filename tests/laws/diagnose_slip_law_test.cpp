@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "job/doubts.hpp"
-#include "support/sweep_examples.hpp"
+#include "laws/turned_cylinder.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -14,22 +14,6 @@ namespace trueaxis::testing {
 namespace {
 
 using namespace virtual_lathe;
-
-Scenario turned_cylinder() {
-  Scenario scenario = probed_part(PartKind::cylinder);
-  scenario.noise.sigma_mm = 0.002;
-  scenario.plan.passes[0].end_mm = 30.0;
-  scenario.plan.passes[0].feed_mm_per_rev = 1.0;
-  scenario.plan.passes[0].readings_per_revolution = 24.3;
-  return scenario;
-}
-
-Diagnosis diagnosed(const ProbeStream& stream) {
-  DiagnoseOptions options;
-  options.fit.surface = SurfaceKind::cylinder;
-  options.threads = 1;
-  return diagnose(stream, options);
-}
 
 bool has_slip(const Diagnosis& diagnosis) {
   return std::ranges::count(diagnosis.findings, "part.slip", &Finding::effect) > 0;
@@ -43,7 +27,7 @@ TEST_P(DiagnosedSlip, IsNoNoiseHoweverLarge) {
   Scenario scenario = turned_cylinder();
   const double dx = GetParam(), dy = 0.5 * GetParam();
   scenario.effects = {{"part.slip", {{"time_s", 12.0}, {"dx_mm", dx}, {"dy_mm", dy}}}};
-  const Diagnosis diagnosis = diagnosed(simulate(scenario));
+  const Diagnosis diagnosis = diagnosed_cylinder(simulate(scenario));
   const auto slip = std::ranges::find(diagnosis.findings, "part.slip", &Finding::effect);
   ASSERT_NE(slip, diagnosis.findings.end());
   // u of a step between halves of some 240 readings is σ √(2/240 + 2/240), and twice that if the
@@ -66,7 +50,7 @@ TEST(SlipInCorrelatedNoise, ShowsInTheLevel) {
     Scenario scenario = turned_cylinder();
     scenario.seed = seed, scenario.noise.rho = 0.8;
     scenario.effects = {{"part.slip", {{"time_s", 12.0}, {"dx_mm", 0.01}}}};
-    EXPECT_TRUE(has_slip(diagnosed(simulate(scenario)))) << "seed " << seed;
+    EXPECT_TRUE(has_slip(diagnosed_cylinder(simulate(scenario)))) << "seed " << seed;
   }
 }
 
@@ -77,11 +61,11 @@ TEST(SlipAtAnEnd, IsNotMadeOfOutliersAtAnEnd) {
     Scenario scenario = turned_cylinder();
     scenario.seed = seed;
     ProbeStream stream = simulate(scenario);
-    const FitResult clean = diagnosed(stream).baseline;
+    const FitResult clean = diagnosed_cylinder(stream).baseline;
     const std::size_t last = stream.size() - 1, begin = seed % 2 == 0 ? 0 : last - 1;
     stream.reading_mm[begin] += 7.0 * scenario.noise.sigma_mm;
     stream.reading_mm[begin + 1] += 7.0 * scenario.noise.sigma_mm;
-    const Diagnosis diagnosis = diagnosed(stream);
+    const Diagnosis diagnosis = diagnosed_cylinder(stream);
     EXPECT_FALSE(has_slip(diagnosis)) << "seed " << seed;
     // The axis is that of the stream without them, within 4 u (one of 16 000 is not).
     const auto stated = diagnosis.extended.axis.axis.at(15.0), without = clean.axis.axis.at(15.0);
@@ -97,27 +81,7 @@ TEST(SlipAtAnEnd, IsSeenATurnBeforeTheEnd) {
   const double last_s = simulate(scenario).time_s.back();
   scenario.effects = {
       {"part.slip", {{"time_s", last_s - 23.5 * per_s}, {"dx_mm", 0.012}, {"dy_mm", 0.0}}}};
-  EXPECT_TRUE(has_slip(diagnosed(simulate(scenario))));
-}
-
-/// The final axis at both ends is that of the part after a slip. One of 16 000 is beyond 4 u.
-void expect_axis_after(const Scenario& scenario, double dx_mm, double dy_mm, double end_mm,
-                       const Diagnosis& diagnosis) {
-  const Part& part = scenario.part;
-  const double n = std::sqrt(1.0 - part.l * part.l - part.m * part.m);
-  for (const double z_mm : {0.0, end_mm}) {
-    const auto stated = diagnosis.extended.axis.axis.at(z_mm);
-    const double u = diagnosis.extended.axis.u_at(z_mm);
-    EXPECT_NEAR(stated[0], part.x0_mm + part.l / n * z_mm + dx_mm, 4.0 * u) << scenario.seed;
-    EXPECT_NEAR(stated[1], part.y0_mm + part.m / n * z_mm + dy_mm, 4.0 * u) << scenario.seed;
-  }
-}
-
-/// The same with less noise.
-Scenario turned_cylinder(std::uint64_t seed, double radius_mm, double sigma_mm) {
-  Scenario scenario = turned_cylinder();
-  scenario.seed = seed, scenario.part.radius_mm = radius_mm, scenario.noise.sigma_mm = sigma_mm;
-  return scenario;
+  EXPECT_TRUE(has_slip(diagnosed_cylinder(simulate(scenario))));
 }
 
 // A slip δ leaves δ²/2R of the second order, 1 to 2.3 µm here with 0.5 µm of noise: lobes of the
@@ -130,7 +94,7 @@ TEST(LargeSlip, IsExactToAllOrders) {
     const double dx = slip * std::cos(towards), dy = slip * std::sin(towards);
     scenario.effects = {{"part.slip", {{"time_s", 12.0}, {"dx_mm", dx}, {"dy_mm", dy}}},
                         {"part.barrel", {{"amplitude_mm", 0.006}}}};
-    const Diagnosis diagnosis = diagnosed(simulate(scenario));
+    const Diagnosis diagnosis = diagnosed_cylinder(simulate(scenario));
     EXPECT_TRUE(has_slip(diagnosis)) << "seed " << seed;
     EXPECT_EQ(diagnosis.findings.size(), 2U) << "seed " << seed;
     expect_axis_after(scenario, dx, dy, 30.0, diagnosis);
@@ -159,7 +123,7 @@ TEST(LargeSlip, InASecondSetUpIsSearchedAgain) {
         {"part.slip", {{"time_s", until - 15.5}, {"dx_mm", -0.139}, {"dy_mm", 0.049}}},
         {"part.barrel", {{"amplitude_mm", 0.006}, {"cubic_mm", -0.001}}},
         {"part.roundness", {{"amplitude_mm", 0.005}, {"order", 2.0}, {"phase_rad", 2.8}}}};
-    const Diagnosis diagnosis = diagnosed(simulate(scenario));
+    const Diagnosis diagnosis = diagnosed_cylinder(simulate(scenario));
     EXPECT_EQ(diagnosis.extended.status, FitStatus::converged) << diagnosis.extended.message;
     EXPECT_TRUE(has_slip(diagnosis)) << "seed " << seed;
     part.x0_mm = *turned.x0_mm, part.y0_mm = *turned.y0_mm, part.l = *turned.l, part.m = *turned.m;
@@ -185,7 +149,7 @@ TEST(LargeSlip, BesideTheErrorOfAScaleIsExchangedAboutThePart) {
         {"part.slip", {{"time_s", on_the_way_back}, {"dx_mm", -0.077}, {"dy_mm", 0.087}}},
         {"probe.cyclic",
          {{"amplitude_mm", 0.002}, {"period_mm", 0.129}, {"phase_rad", double(seed)}}}};
-    const Diagnosis diagnosis = diagnosed(simulate(scenario));
+    const Diagnosis diagnosis = diagnosed_cylinder(simulate(scenario));
     EXPECT_EQ(diagnosis.findings.size(), 2U) << "seed " << seed;
     EXPECT_EQ(std::ranges::count(diagnosis.findings, "probe.cyclic", &Finding::effect), 1) << seed;
     expect_axis_after(scenario, -0.077, 0.087, 115.0, diagnosis);
@@ -218,7 +182,7 @@ Scenario probed_in_sections(std::uint64_t seed, int sections, double per_turn, d
 TEST(SlipInSections, IsFoundInTheLastOne) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const Scenario scenario = probed_in_sections(seed, 5, 36.0, 4 * 36 + 18);
-    const Diagnosis diagnosis = diagnosed(simulate(scenario));
+    const Diagnosis diagnosis = diagnosed_cylinder(simulate(scenario));
     EXPECT_TRUE(has_slip(diagnosis)) << "seed " << seed;
     expect_axis_after(scenario, 0.012, 0.009, 40.0, diagnosis);
   }
@@ -228,7 +192,7 @@ TEST(SlipInSections, IsFoundInTheLastOne) {
 // bent may then as well have slipped between two of them.
 TEST(SlipInSections, MayBeABendOfThree) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Diagnosis diagnosis = diagnosed(simulate(probed_in_sections(seed, 3, 24.0, 24)));
+    const Diagnosis diagnosis = diagnosed_cylinder(simulate(probed_in_sections(seed, 3, 24.0, 24)));
     EXPECT_TRUE(std::ranges::any_of(diagnosis.findings,
                                     [](const Finding& finding) {
                                       return finding.may_be("part.slip") &&
@@ -269,7 +233,7 @@ TEST(CreepOfAPart, IsNoBentPart) {
     scenario.effects = {{"part.creep", {{"settling_s", tau}, {"dx_mm", dx}, {"dy_mm", dy}}}};
     ProbeStream stream = simulate(scenario);
     if (k % 4 == 3) stream.time_s.clear();  // then it goes with the number of the reading
-    const Diagnosis diagnosis = diagnosed(stream);
+    const Diagnosis diagnosis = diagnosed_cylinder(stream);
     if (why_axis_unknown(stream, diagnosis)) {
       ++withheld;
       continue;
@@ -304,7 +268,7 @@ TEST(CreepOfAPart, IsNotWhatABentPartIsTakenFor) {
                           {"middle_mm", 30.0},
                           {"direction_rad", 0.5 * static_cast<double>(seed)}}}};
     const ProbeStream stream = simulate(scenario);
-    taken += why_axis_unknown(stream, diagnosed(stream)).has_value();
+    taken += why_axis_unknown(stream, diagnosed_cylinder(stream)).has_value();
   }
   EXPECT_EQ(taken, 0);
 }
@@ -317,7 +281,7 @@ TEST(CreepOfAPart, ThatIsEvenIsSaidToBeHiddenOrFound) {
     scenario.effects = {
         {"part.creep", {{"settling_s", 1e5}, {"dx_mm", 10.0}, {"dy_mm", 0.0}}}};  // 6 µm a minute
     const ProbeStream stream = simulate(scenario);
-    const Diagnosis diagnosis = diagnosed(stream);
+    const Diagnosis diagnosis = diagnosed_cylinder(stream);
     const bool hidden =
         std::ranges::count(diagnosis.not_observable, "part.creep", &NotObservable::effect) > 0;
     EXPECT_EQ(hidden, !and_back);

@@ -18,10 +18,12 @@ using namespace diagnose_detail;
 struct Bench {
   double tangent;
   Root first_side, second_side;
+  double height_mm;
   std::vector<Clamping> clampings{2};
   ProbeStream stream = testing::arguments({.readings = 101, .passes = 2});
 
-  Bench(double t, Root first, Root second) : tangent(t), first_side(first), second_side(second) {
+  Bench(double t, Root first, Root second, double height)
+      : tangent(t), first_side(first), second_side(second), height_mm(height) {
     clampings[0].shape = {{0.2, -0.1, 1e-3, -5e-4, 0.0}, 40.0, t};
     clampings[0].root = first;
     clampings[1].shape = {{-0.15, 0.4, -4e-3, 2e-3, 0.0}, 40.0 + 3.0 * t, t};
@@ -34,7 +36,7 @@ struct Bench {
   LinearisationPoint point() const {
     BaseKind base = testing::bench_base(tangent);
     base.axes = 2;
-    return linearise_at(stream, clampings, base, false);
+    return linearise_at(stream, clampings, base, false, 1, {}, height_mm);
   }
   const Clamping& of(std::size_t i) const {
     return clampings[static_cast<std::size_t>(stream.setup[i] - 1)];
@@ -77,11 +79,9 @@ Revolved nudged(const Revolved& shape, const Clamping& clamping, const Linearisa
   return out;
 }
 
-class SceneOf : public ::testing::TestWithParam<std::tuple<double, Root, Root>> {
+class SceneOf : public ::testing::TestWithParam<std::tuple<double, Root, Root, double>> {
  protected:
-  Bench bench() const {
-    return {std::get<0>(GetParam()), std::get<1>(GetParam()), std::get<2>(GetParam())};
-  }
+  Bench bench() const { return std::make_from_tuple<Bench>(GetParam()); }
 };
 
 // Central differences of the exact intersection with a step h err by h²/6 of the third derivative
@@ -99,7 +99,7 @@ TEST_P(SceneOf, BaseColumnsAreDifferencesOfTheIntersection) {
       const double h = j == 2 || j == 3 || j == 5 ? 1e-6 : 1e-4;
       const auto at = [&](double by) {
         return intersect(nudged(clamping.shape, clamping, point, j, by), point.c[i], point.z[i],
-                         0.0, clamping.root)
+                         b.height_mm, clamping.root)
             .x_mm;
       };
       const double expected = (at(h) - at(-h)) / (2.0 * h);
@@ -125,9 +125,11 @@ TEST_P(SceneOf, ContactsAreInThePartsFrame) {
   for (std::size_t i = 0; i < point.size(); i += 7) {
     const Clamping& clamping = b.of(i);
     const Axis& axis = clamping.shape.axis;
-    const double x = intersect(clamping.shape, point.c[i], point.z[i], 0.0, clamping.root).x_mm;
+    const double x =
+        intersect(clamping.shape, point.c[i], point.z[i], b.height_mm, clamping.root).x_mm;
     const Eigen::Vector3d along = Eigen::Vector3d(axis.slope_x, axis.slope_y, 1.0).normalized();
-    const Eigen::Vector3d contact(x * std::cos(point.c[i]), x * std::sin(point.c[i]), point.z[i]);
+    const Eigen::Vector3d contact = Eigen::AngleAxisd(point.c[i], Eigen::Vector3d::UnitZ()) *
+                                    Eigen::Vector3d(x, b.height_mm, point.z[i]);
     const Eigen::Vector3d own =
         Eigen::Quaterniond::FromTwoVectors(along, Eigen::Vector3d::UnitZ()) *
         (contact - Eigen::Vector3d(axis.x_mm, axis.y_mm, 0.0));
@@ -162,7 +164,8 @@ TEST_P(SceneOf, MotionIsThatOfThePlan) {
 INSTANTIATE_TEST_SUITE_P(SidesAndAngles, SceneOf,
                          ::testing::Combine(::testing::Values(0.0, 0.1, -0.25),
                                             ::testing::Values(Root::front, Root::rear),
-                                            ::testing::Values(Root::front, Root::rear)));
+                                            ::testing::Values(Root::front, Root::rear),
+                                            ::testing::Values(0.0, 3.0)));
 
 }  // namespace
 }  // namespace trueaxis

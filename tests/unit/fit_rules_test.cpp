@@ -125,7 +125,9 @@ TEST(FitMovedPart, OnlyALoneReadingFarOffDoesNotCount) {
 
 // Lobes leave residuals too, of up to 10 µm: C in gon is looked for beyond.
 TEST(FitMisreading, SmallResidualsAreLobes) {
-  const ProbeStream stream = cylinder(2880, 20.0, 0.1);
+  ProbeStream stream = cylinder(2880, 20.0, 0.1);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    stream.reading_mm[i] += 0.011 * std::sqrt(2.0) * std::cos(3.0 * stream.c_rad[i]);
   const Refit better = [](const ProbeStream& right, SurfaceKind) {
     FitResult again;
     again.status = FitStatus::converged, again.points = right.size(), again.rms_mm = 1e-4;
@@ -138,6 +140,28 @@ TEST(FitMisreading, SmallResidualsAreLobes) {
   EXPECT_EQ(likely_misreading(stream, found, better), "");
   found.rms_mm = 0.011;
   EXPECT_TRUE(likely_misreading(stream, found, better).starts_with("C has 400 gon"));
+}
+
+// A fit that went astray leaves more than the surface to first order does, and tells of no unit: 1°
+// of C is an arc and not a turn, where as little as noise is left of it.
+TEST(FitMisreading, AFitThatWentAstrayTellsNothing) {
+  ProbeStream stream = cylinder(400, 1.0 / 360.0, 0.1);
+  std::mt19937_64 random(45);
+  std::normal_distribution<double> normal(0.0, 0.01);
+  for (double& reading : stream.reading_mm) reading += normal(random);
+  const Refit better = [](const ProbeStream& right, SurfaceKind) {
+    FitResult again;
+    again.status = FitStatus::converged, again.points = right.size(), again.rms_mm = 0.01;
+    return again;
+  };
+  FitResult astray;
+  astray.surface = SurfaceKind::cylinder;
+  astray.residual_mm.assign(stream.size(), 0.0);
+  astray.rms_mm = 2e7;
+  EXPECT_EQ(likely_misreading(stream, astray, better), "");
+  for (std::size_t i = 0; i < stream.size(); ++i)  // what no arc of 1° has
+    stream.reading_mm[i] += std::cos(0.1 * static_cast<double>(i));
+  EXPECT_TRUE(likely_misreading(stream, astray, better).starts_with("C is in "));
 }
 
 // The largest of 2880 readings of noise is below 5 σ but once in 600 streams.

@@ -116,11 +116,12 @@ TEST(FormSurface, NothingResolvedIsABound) {
 
 // A bound is what 95 of 100 draws are below. The logarithm of a size that is not known varies by
 // some 0.6, so that independent draws show its bound to 0.6 · √(0.05 · 0.95)/0.103/√100 = 0.13;
-// those of a chain may be a third as many. With one sweep a draw, 60 before them, it was 0.4.
+// those of a chain may be a third as many. 32 seeds show a standard deviation to 1.40 of it (99.9 %
+// of χ² with 31 degrees of freedom). With one sweep a draw, 60 before them, it was 0.4.
 TEST(FormSurface, ABoundDependsLittleOnTheSeed) {
   const ProbeStream stream = helix([](double, double) { return 20.0; }, 2e-3, 3);
   double sum = 0.0, squares = 0.0;
-  constexpr int seeds = 16;
+  constexpr int seeds = 32;
   for (int seed = 1; seed <= seeds; ++seed) {
     FormOptions options = band(15.0);
     options.seed = static_cast<std::uint64_t>(seed);
@@ -128,7 +129,7 @@ TEST(FormSurface, ABoundDependsLittleOnTheSeed) {
     sum += bound, squares += bound * bound;
   }
   const double variance = (squares - sum * sum / seeds) / (seeds - 1);
-  EXPECT_LT(std::sqrt(variance), 0.13 * std::sqrt(3.0));
+  EXPECT_LT(std::sqrt(variance), 1.40 * 0.13 * std::sqrt(3.0));
 }
 
 // Lobes that were subtracted with a known amplitude ± 1 µm: RONt is off by twice that in phase.

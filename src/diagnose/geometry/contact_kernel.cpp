@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::CappedTag<double, kernel_room>;
 
-// The names and steps of `intersect` (src/surface/axis.cpp), height 0.
+// The names and steps of `intersect` (src/surface/axis.cpp).
 bool meet_all(const Revolved& shape, Root root, const ProbeLines& lines, std::size_t count) {
   const Tag tag;
   const auto set = [&](double value) { return hn::Set(tag, value); };
@@ -27,13 +27,16 @@ bool meet_all(const Revolved& shape, Root root, const ProbeLines& lines, std::si
   const auto dx = set(axis.slope_x / secant), dy = set(axis.slope_y / secant),
              dz = set(1.0 / secant);
   const auto t = set(shape.tan_half_angle), one = set(1.0), zero = set(0.0);
+  const auto height = set(lines.height_mm);
   const auto one_t2 = set(1.0 + shape.tan_half_angle * shape.tan_half_angle);
   bool all = true;
   for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
     const auto cosine = hn::LoadU(tag, lines.cosine + i), sine = hn::LoadU(tag, lines.sine + i);
     const auto lever = hn::Sub(hn::LoadU(tag, lines.z + i), set(axis.z_ref_mm));
-    const auto qx = hn::Neg(hn::MulAdd(set(axis.slope_x), lever, set(axis.x_mm)));
-    const auto qy = hn::Neg(hn::MulAdd(set(axis.slope_y), lever, set(axis.y_mm)));
+    const auto qx =
+        hn::NegMulSub(height, sine, hn::MulAdd(set(axis.slope_x), lever, set(axis.x_mm)));
+    const auto qy =
+        hn::MulSub(height, cosine, hn::MulAdd(set(axis.slope_y), lever, set(axis.y_mm)));
     const auto radius = hn::MulAdd(hn::Mul(t, set(secant)), lever, set(shape.radius_mm));
     const auto s0 = hn::MulAdd(qx, dx, hn::Mul(qy, dy));
     const auto g = hn::MulAdd(cosine, dx, hn::Mul(sine, dy));
@@ -64,7 +67,8 @@ bool meet_all(const Revolved& shape, Root root, const ProbeLines& lines, std::si
                gy = hn::NegMulAdd(away, dy, hn::MulAdd(x, sine, qy)),
                gz = hn::Neg(hn::Mul(away, dz));
     const auto inverse = hn::Div(one, hn::MulAdd(cosine, gx, hn::Mul(sine, gy)));
-    const auto turned = hn::Mul(x, hn::MulSub(cosine, gy, hn::Mul(sine, gx)));
+    const auto turned = hn::MulSub(x, hn::MulSub(cosine, gy, hn::Mul(sine, gx)),
+                                   hn::Mul(height, hn::MulAdd(cosine, gx, hn::Mul(sine, gy))));
     hn::StoreU(x, tag, lines.x + i);
     hn::StoreU(hn::Neg(hn::Mul(gz, inverse)), tag, lines.dx_dz + i);
     hn::StoreU(hn::Neg(hn::Mul(turned, inverse)), tag, lines.dx_dc + i);
@@ -79,13 +83,15 @@ void all_to_part_frame(const Axis& axis, const TurnedPoints& points, std::size_t
   const double l_of = axis.slope_x / secant, m_of = axis.slope_y / secant;
   const double sine_of = std::hypot(l_of, m_of);
   const auto origin = axis.at(0.0);
-  const auto l = set(l_of), m = set(m_of), n = set(1.0 / secant), zero = set(0.0);
+  const auto l = set(l_of), m = set(m_of), n = set(1.0 / secant), zero = set(0.0),
+             across = set(points.y);
   const auto kx = set(sine_of > 0.0 ? m_of / sine_of : 0.0),
              ky = set(sine_of > 0.0 ? -l_of / sine_of : 0.0), less = set(1.0 - 1.0 / secant);
   for (std::size_t i = 0; i < count; i += hn::Lanes(tag)) {
     const auto at = hn::LoadU(tag, points.x + i), z = hn::LoadU(tag, points.z + i);
-    const auto qx = hn::MulSub(at, hn::LoadU(tag, points.cosine + i), set(origin[0])),
-               qy = hn::MulSub(at, hn::LoadU(tag, points.sine + i), set(origin[1]));
+    const auto cosine = hn::LoadU(tag, points.cosine + i), sine = hn::LoadU(tag, points.sine + i);
+    const auto qx = hn::NegMulAdd(across, sine, hn::MulSub(at, cosine, set(origin[0]))),
+               qy = hn::MulAdd(across, cosine, hn::MulSub(at, sine, set(origin[1])));
     const auto along = hn::Mul(hn::MulAdd(kx, qx, hn::Mul(ky, qy)), less);
     const auto x = hn::MulAdd(qx, n, hn::NegMulAdd(l, z, hn::Mul(kx, along))),
                y = hn::MulAdd(qy, n, hn::NegMulAdd(m, z, hn::Mul(ky, along)));

@@ -10,18 +10,20 @@ namespace trueaxis::diagnose_detail {
 /// Room after a column that a kernel works on: vectors of the last readings reach into it.
 inline constexpr std::size_t kernel_room = 8;
 
-/// Probe lines at height 0, and where they meet a surface: as `intersect` says, all at once.
+/// Probe lines, and where they meet a surface: as `intersect` says, all at once.
 struct ProbeLines {
   const double *sine, *cosine, *z;  ///< of C; mm
   double *x, *dx_dc, *dx_dz;        ///< written
+  double height_mm;                 ///< of all
 };
 /// @returns whether all of them meet it
 bool meet(const Revolved& shape, Root root, const ProbeLines& lines, std::size_t count);
 
-/// Points of the spindle frame at (x cos C, x sin C, z).
+/// Points (x, y, z) of the machine, turned back by C into the frame of the spindle.
 struct TurnedPoints {
   const double *x, *z, *sine, *cosine;
   double *theta, *along, *from;  ///< written: polar angle about an axis, along it, from it
+  double y;                      ///< of all
 };
 /// Their coordinates in the frame of an axis, whose origin is the axis' point at z = 0: turned back
 /// by Rodrigues' rotation about the common normal of axis and spindle. On the axis θ is 0.

@@ -23,20 +23,22 @@ void meet_face(const Axis& axis, const ProbeLines& lines, std::size_t count) {
 }
 
 /// `count` readings of one clamping, entries from `to` on.
-void fill_contacts(const Clamping& now, bool face, std::size_t to, std::size_t count,
-                   PointRoom& out) {
+void fill_contacts(const Clamping& now, const LinearisationFacts& facts, std::size_t to,
+                   std::size_t count, PointRoom& out) {
   const Axis& axis = now.shape.axis;
+  const bool face = facts.base.face;
+  const double height_mm = facts.height_mm;
   const auto at = [&](std::vector<double>& column) { return column.data() + to; };
   const double *sine = at(out.sine), *cosine = at(out.cosine), *z = at(out.z);
   double *x = at(out.x), *dx_dc = at(out.dx_dc), *dx_dz = at(out.dx_dz), *theta = at(out.theta),
          *s = at(out.s), *from = at(out.from);
-  const ProbeLines lines{sine, cosine, z, x, dx_dc, dx_dz};
+  const ProbeLines lines{sine, cosine, z, x, dx_dc, dx_dz, height_mm};
   if (face)
     meet_face(axis, lines, count);
   else
     expects(meet(now.shape, now.root, lines, count), "every probe line meets the fitted surface");
   const bool behind = now.root == Root::rear;
-  to_part_frame(axis, {face ? z : x, face ? x : z, sine, cosine, theta, s, from}, count);
+  to_part_frame(axis, {face ? z : x, face ? x : z, sine, cosine, theta, s, from, height_mm}, count);
   double *sensed = at(out.sensed), *chuck = at(out.chuck), *d2x_dc2 = at(out.d2x_dc2),
          *dx_dy = at(out.dx_dy), *dx_dnormal = at(out.dx_dnormal);
   for (std::size_t k = 0; k < count; ++k) {
@@ -46,7 +48,8 @@ void fill_contacts(const Clamping& now, bool face, std::size_t to, std::size_t c
     s[k] = face ? from[k] : s[k] - now.z_shift_mm;
     const auto centre = axis.at(z[k]);
     d2x_dc2[k] = face ? -z[k] * dx_dz[k] : -(centre[0] * cosine[k] + centre[1] * sine[k]);
-    dx_dy[k] = face ? axis.slope_x * sine[k] - axis.slope_y * cosine[k] : dx_dc[k] / x[k];
+    dx_dy[k] =
+        face ? axis.slope_x * sine[k] - axis.slope_y * cosine[k] : (dx_dc[k] - height_mm) / x[k];
     const double secant = std::sqrt(1.0 + dx_dy[k] * dx_dy[k] + dx_dz[k] * dx_dz[k]);
     dx_dnormal[k] = behind ? -secant : secant;
   }
@@ -89,7 +92,7 @@ void make_part(const LinearisationPoint& point, std::size_t begin, std::size_t e
     const auto number = static_cast<std::size_t>(pass - point.passes.begin());
     std::fill_n(out.speed.begin() + static_cast<long>(at), count, pass->speed_rad_per_s);
     std::fill_n(out.velocity.begin() + static_cast<long>(at), count, point.velocity[number]);
-    fill_contacts(now, point.base.face, at, count, out);
+    fill_contacts(now, point, at, count, out);
     from = to;
   }
 }

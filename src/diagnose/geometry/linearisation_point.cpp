@@ -146,20 +146,21 @@ ColumnSource source_of(const LinearisationPoint& point, PointColumn column) {
 }
 
 bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                      const std::vector<Clamping>& before) {
+                      const std::vector<Clamping>& before, double height_mm) {
   for (std::size_t i = 0; i < stream.size() && stream.kind == StreamKind::lateral; ++i) {
     const Clamping& now =
         clamping_at(clampings, before, stream.setup.empty() ? 1 : stream.setup[i], i);
     const double z_mm = stream.has_position() ? stream.position_mm[i] : 0.0;
-    if (!intersect(now.shape, stream.c_rad[i], z_mm, 0.0, now.root).hit) return false;
+    if (!intersect(now.shape, stream.c_rad[i], z_mm, height_mm, now.root).hit) return false;
   }
   return true;
 }
 
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore, int threads,
-                                std::vector<Clamping> before) {
+                                std::vector<Clamping> before, double height_mm) {
   LinearisationPoint point;
+  point.height_mm = height_mm;
   point.before = std::move(before);
   point.passes = find_passes(stream);
   point.c = SharedColumn::of(stream.c_rad);
@@ -188,6 +189,7 @@ TermContext LinearisationPoint::context(const PointPart& part) const {
   at.clamp_force_ratio = part.clamp;
   if (base.face) at.face = true, at.dx_dy = part.dx_dy;
   at.z_mid_mm = z_mid_mm, at.z_half_mm = z_half_mm;
+  at.height_mm = height_mm;
   at.tan_half_angle = tan_half_angle;
   at.bore = bore, at.rear = part.rear[0] != 0;
   return at;
@@ -213,9 +215,9 @@ void LinearisationPoint::fill_base(const PointPart& at, std::span<double* const>
     columns[own][k] = along_x;
     columns[own + 1][k] = along_y;
     if (base.tilts) {
-      const double lever = at.z[k] - z_mid_mm, with_z = at.dx_dz[k] * at.x[k];
-      columns[own + 2][k] = lever * along_x + with_z * cosine;
-      columns[own + 3][k] = lever * along_y + with_z * sine;
+      const double lever = at.z[k] - z_mid_mm, x = at.x[k];
+      columns[own + 2][k] = lever * along_x + at.dx_dz[k] * (x * cosine - height_mm * sine);
+      columns[own + 3][k] = lever * along_y + at.dx_dz[k] * (x * sine + height_mm * cosine);
     }
     columns[shared][k] = base.offset ? 1.0 : normal * cos_half;
     if (base.tapers) columns[shared + 1][k] = normal * cos_half * (at.s[k] - s_ref_mm);

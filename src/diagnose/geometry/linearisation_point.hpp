@@ -59,6 +59,7 @@ struct LinearisationFacts {
        two_sided = false, reclamped = false;
   std::vector<Clamping> clampings;
   std::vector<Clamping> before;  ///< of a part that slipped: where it was, until when
+  double height_mm = 0.0;        ///< of the probe; 0 for a face
 
   double end_mm() const { return std::abs(z_mid_mm) + z_half_mm; }  ///< outer end of a face
 };
@@ -127,13 +128,13 @@ ColumnSource source_of(const LinearisationPoint& point, PointColumn column);
 /// Whether the probe line of every reading meets the surface as it is clamped then: beyond a cone's
 /// apex, or next to a thin part, none does. A face is met everywhere.
 bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                      const std::vector<Clamping>& before = {});
+                      const std::vector<Clamping>& before = {}, double height_mm = 0.0);
 
 /// @param stream columns C, Z, t, set-up, which outlive the point; its readings are not used.
-/// @param before LinearisationFacts::before
+/// @param before, height_mm LinearisationFacts
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore, int threads = 1,
-                                std::vector<Clamping> before = {});
+                                std::vector<Clamping> before = {}, double height_mm = 0.0);
 /// The same of a stream whose columns the point takes.
 LinearisationPoint linearise_at(ProbeStream&& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore, int threads = 1);

@@ -41,9 +41,9 @@ Axis undone(const Axis& after, const Step& step, double z_mid_mm) {
 
 }  // namespace
 
-bool is_step_at_once(const Hypothesis& h) {
-  return h.effect && is_step(h.effect->term) && h.shape.duration_s == 0.0;
-}
+bool is_slip(const Hypothesis& h) { return h.effect && is_step(h.effect->term); }
+
+bool is_step_at_once(const Hypothesis& h) { return is_slip(h) && h.shape.duration_s == 0.0; }
 
 std::vector<Clamping> places_before(const LinearisationPoint& point,
                                     std::span<const Hypothesis> terms, const Eigen::VectorXd& found,

@@ -16,6 +16,9 @@ std::vector<Clamping> places_before(const LinearisationPoint& point,
                                     std::span<const Hypothesis> terms, const Eigen::VectorXd& found,
                                     const std::vector<Clamping>& after);
 
+/// Whether a term is a step.
+bool is_slip(const Hypothesis& h);
+
 /// Whether a term is a step at once: one that takes its time has no two places.
 bool is_step_at_once(const Hypothesis& h);
 

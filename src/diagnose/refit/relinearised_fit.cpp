@@ -50,6 +50,22 @@ void linearise_at_sizes(std::vector<Hypothesis>& terms, const Eigen::VectorXd& f
   }
 }
 
+bool is_height(const Hypothesis& h) {
+  const auto* line = h.effect ? std::get_if<ProbeLine>(&h.effect->term) : nullptr;
+  return line != nullptr && line->of == ProbeLine::Of::height;
+}
+
+/// The height of the probe, mm.
+double height_of(const std::vector<Hypothesis>& terms, const Eigen::VectorXd& found) {
+  double out_mm = 0.0;
+  Eigen::Index at = 0;
+  for (const Hypothesis& h : terms) {
+    if (is_height(h)) out_mm += found(at);
+    at += static_cast<Eigen::Index>(h.columns());
+  }
+  return out_mm;
+}
+
 /// Takes off what a shift of the base does to X, block by block.
 void subtract_base(std::vector<double>& from, const LinearisationPoint& point,
                    const Eigen::VectorXd& shift, int threads) {
@@ -76,7 +92,7 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
   if (!terms_.empty()) relinearise(model);
   deviation_mm_ = deviation_from(ideal.stream, point_ ? *point_ : first.point, first.threads);
   if (!known_mm_.empty()) add(deviation_mm_, known_mm_);
-  if (!step_mm_.empty()) add(deviation_mm_, step_mm_);
+  if (!moved_mm_.empty()) add(deviation_mm_, moved_mm_);
   problem_.emplace(first.about(point_ ? *point_ : first.point, deviation_mm_));
   joint_.emplace(*problem_, model.phi, terms_, terms_.size());
   const auto count = static_cast<Eigen::Index>(columns_of(terms_));
@@ -110,17 +126,22 @@ FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, BaseUncertainty
   return extended_fit(cleaned(std::move(moved)), point, base);
 }
 
-double RelinearisedFit::criterion() const {
-  const auto rows = static_cast<double>(joint_->equations.count());
-  const auto dates = std::ranges::count_if(
-      terms_, [](const Hypothesis& h) { return h.effect && is_step(h.effect->term); });
-  return rows * std::log(joint_->solution.rss) - joint_->equations.log_volume() +
-         static_cast<double>(joint_->solution.rank + dates) * std::log(rows);
+double criterion_of(const Joint& joint) {
+  const auto rows = static_cast<double>(joint.equations.count());
+  const auto dates = std::ranges::count_if(joint.terms, is_slip);
+  return rows * std::log(joint.solution.rss) - joint.equations.log_volume() +
+         static_cast<double>(joint.solution.rank + dates) * std::log(rows);
 }
 
 std::vector<double> RelinearisedFit::residual_mm() const {
   return remainder(problem_->point, deviation_mm_, terms_, joint_->solution.coefficients,
                    problem_->threads);
+}
+
+LinearisationPoint RelinearisedFit::point_at(const ProbeStream& stream, const Place& place) const {
+  const LinearisationPoint& first = ideal_.point;
+  return linearise_at(stream, place.after, first.base, first.bore, ideal_.problem.threads,
+                      place.before, place.height_mm);
 }
 
 /// About the extended surface, where the terms leave one. A play is where the eccentricity turns
@@ -142,20 +163,22 @@ void RelinearisedFit::relinearise(const Model& model) {
                     ideal_.masked)
             .fit;
     if (!is_diagnosable(extended)) return;
-    const std::vector<Clamping> clampings = clampings_of(extended, ideal_.ball_mm);
-    std::vector<Clamping> before;
-    if (rounds == 1) before = places_before(about->point, terms_, found, clampings);
-    if (!every_line_meets(ideal_.stream, clampings, before)) before.clear();
+    Place place{.after = clampings_of(extended, ideal_.ball_mm)};
+    if (rounds == 1 && !first.point.base.face) {
+      place.before = places_before(about->point, terms_, found, place.after);
+      place.height_mm = height_of(terms_, found);
+    }
+    if (!every_line_meets(ideal_.stream, place.after, place.before, place.height_mm))
+      place = {.after = std::move(place.after)};
     linearise_at_sizes(terms_, found, plays);
     if (rounds == 1 && std::ranges::any_of(terms_, turns)) {
       linearise_at_sizes(terms_, found, is_linearised_at_its_size);
-      turn(found, clampings, before);
-      return note_steps(found, clampings);
+      turn(found, place);
+      return note_moved(found, place);
     }
     about.reset();  // it is about the point that goes
-    point_ = linearise_at(ideal_.stream, clampings, first.point.base, first.point.bore,
-                          first.threads, before);
-    if (rounds == 1) return note_steps(found, clampings);
+    point_ = point_at(ideal_.stream, place);
+    if (rounds == 1) return note_moved(found, place);
     deviation_mm_ = deviation_from(ideal_.stream, *point_, first.threads);
     about.emplace(first.about(*point_, deviation_mm_));
   }
@@ -163,12 +186,8 @@ void RelinearisedFit::relinearise(const Model& model) {
 
 /// Moves what all terms are about to the angles that delays and lags make true, and notes what is
 /// known of X: X(a) = X(a') + (a − a') ∂X/∂a.
-void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings,
-                           const std::vector<Clamping>& before) {
+void RelinearisedFit::turn(const Eigen::VectorXd& found, const Place& place) {
   const LinearisationPoint& first = ideal_.point;
-  const auto point_of = [&](const ProbeStream& stream) {
-    return linearise_at(stream, clampings, first.base, first.bore, ideal_.problem.threads, before);
-  };
   moved_ = ideal_.stream;
   Eigen::Index at = 0;
   for (const Hypothesis& h : terms_) {
@@ -180,8 +199,8 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
     }
     at += static_cast<Eigen::Index>(h.columns());
   }
-  const LinearisationPoint recorded = point_of(ideal_.stream);
-  point_ = point_of(*moved_);
+  const LinearisationPoint recorded = point_at(ideal_.stream, place);
+  point_ = point_at(*moved_, place);
   turned_mm_ = point_->column(&PointPart::x);
   add(turned_mm_, recorded.column(&PointPart::x), -1.0);
   known_mm_.assign(first.size(), 0.0);
@@ -206,24 +225,25 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
   }
 }
 
-/// Of a part that slipped the readings before are about where it was then: X(before) − X(after) is
-/// known to all orders, and (dx² + dy²)/2R of a slip beyond the first.
-void RelinearisedFit::note_steps(const Eigen::VectorXd& found,
-                                 const std::vector<Clamping>& clampings) {
-  if (point_->before.empty()) return;
+/// Readings before a slip are about where the part was then, and all readings about the height of
+/// the probe. So what both do to X is known to all orders: (dx² + dy²)/2R and h dy/R beyond the
+/// first.
+void RelinearisedFit::note_moved(const Eigen::VectorXd& found, const Place& place) {
+  if (place.before.empty() && place.height_mm == 0.0) return;
   const Problem& first = ideal_.problem;
-  step_mm_.assign(first.point.size(), 0.0);
+  moved_mm_.assign(first.point.size(), 0.0);
   Eigen::Index at = 0;
   for (const Hypothesis& h : terms_) {
     const Eigen::VectorXd by = found.segment(at, static_cast<Eigen::Index>(h.columns()));
     at += by.size();
-    if (is_step_at_once(h)) add(step_mm_, contribution_of(h, *point_, by, first.threads));
+    if (is_step_at_once(h) || is_height(h))
+      add(moved_mm_, contribution_of(h, *point_, by, first.threads));
   }
   beyond_mm_ = point_->column(&PointPart::x);
-  const LinearisationPoint after = linearise_at(moved_ ? *moved_ : ideal_.stream, clampings,
-                                                first.point.base, first.point.bore, first.threads);
-  add(beyond_mm_, after.column(&PointPart::x), -1.0);
-  add(beyond_mm_, step_mm_, -1.0);
+  const LinearisationPoint alone =
+      point_at(moved_ ? *moved_ : ideal_.stream, {.after = place.after});
+  add(beyond_mm_, alone.column(&PointPart::x), -1.0);
+  add(beyond_mm_, moved_mm_, -1.0);
 }
 
 namespace {
@@ -248,20 +268,52 @@ std::unique_ptr<RelinearisedFit> fit_of_what_passes(const IdealModel& ideal, Mod
   }
 }
 
+/// With the shape of every term refined about the part together with the others, if that is better:
+/// the search had them about the ideal fit, and with a delay of 35 ms a length of decay 5 % off.
+std::unique_ptr<RelinearisedFit> with_shapes_refined(const IdealModel& ideal, Model& model,
+                                                     std::unique_ptr<RelinearisedFit> fit) {
+  if (is_condensed(ideal.problem.point)) return fit;  // so many readings cost too much
+  Model other = model;
+  std::vector<Hypothesis> terms = fit->joint().terms;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (is_linearised_at_its_size(terms[t])) continue;
+    std::vector<Hypothesis> others = terms;
+    others.erase(others.begin() + static_cast<long>(t));
+    terms[t] = refine(fit->problem(), model.phi, others, terms[t], step_start);
+    other.terms[t] = terms[t];
+  }
+  auto refined = fit_of_what_passes(ideal, other);
+  if (!(refined->criterion() < fit->criterion())) return fit;
+  model = std::move(other);
+  return refined;
+}
+
 }  // namespace
 
-std::unique_ptr<RelinearisedFit> after_first_step(const IdealModel& ideal, const Model& model) {
-  const auto step = std::ranges::find_if(
-      model.terms, [](const Hypothesis& h) { return h.effect && is_step(h.effect->term); });
-  if (step == model.terms.end()) return nullptr;
-  Model alone = model;
-  alone.terms = {*step};
-  return std::make_unique<RelinearisedFit>(ideal, alone);
+std::vector<std::unique_ptr<RelinearisedFit>> about_what_moves(const IdealModel& ideal,
+                                                               const Model& model,
+                                                               const RelinearisedFit& fit) {
+  const Joint first(ideal.problem, model.phi, model.terms, model.terms.size());
+  const double a_term = std::log(static_cast<double>(first.equations.count()));
+  const bool bends = std::abs(criterion_of(first) - fit.criterion()) > a_term;
+  std::vector<Hypothesis> steps, probe;
+  for (const Hypothesis& h : model.terms) {
+    if (is_slip(h) && steps.empty()) steps.push_back(h);
+    if (bends && (turns(h) || is_height(h))) probe.push_back(h);
+  }
+  std::vector<std::unique_ptr<RelinearisedFit>> out;
+  for (std::vector<Hypothesis>* some : {&steps, &probe}) {
+    if (some->empty()) continue;
+    Model alone = model;
+    alone.terms = std::move(*some);
+    out.push_back(std::make_unique<RelinearisedFit>(ideal, alone));
+  }
+  return out;
 }
 
 std::unique_ptr<RelinearisedFit> relinearise(const IdealModel& ideal, Model& model,
                                              std::optional<Timing>& timing) {
-  auto best = fit_of_what_passes(ideal, model);
+  auto best = with_shapes_refined(ideal, model, fit_of_what_passes(ideal, model));
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     const Effect* effect = model.terms[t].effect;
     if (!effect || effect->second_order_twin.empty()) continue;

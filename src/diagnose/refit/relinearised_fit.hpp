@@ -11,6 +11,9 @@
 
 namespace trueaxis::diagnose_detail {
 
+/// N ln RSS + k ln N (Schwarz 1978), the date of a slip counting in k.
+double criterion_of(const Joint& joint);
+
 /// Surface and terms fitted about the first solution of both: about the part without the effects
 /// that were found, probed when the delay that was found says. At 240/min 2 ms are 3°, and 3° of an
 /// eccentricity of 0.2 mm are 0.3 µm beyond the first order.
@@ -26,8 +29,8 @@ class RelinearisedFit {
   const Joint& joint() const { return *joint_; }
   /// The sum of all terms, one per reading.
   const std::vector<double>& effect_mm() const { return effect_mm_; }
-  /// N ln RSS + k ln N (Schwarz 1978), about the part itself.
-  double criterion() const;
+  /// About the part itself.
+  double criterion() const { return criterion_of(*joint_); }
   /// Readings minus surface and terms, one a reading, mm.
   std::vector<double> residual_mm() const;
   /// Fits the surface without the terms: before `take_named` and `shifted`.
@@ -41,20 +44,25 @@ class RelinearisedFit {
   FitResult shifted(const Eigen::VectorXd& shift, BaseUncertainty base) const;
 
  private:
+  /// Where part and probe are, as far as it was found.
+  struct Place {
+    std::vector<Clamping> after{}, before{};  ///< of the part: in the end, and before its steps
+    double height_mm = 0.0;                   ///< of the probe
+  };
+  LinearisationPoint point_at(const ProbeStream& stream, const Place& place) const;
   void relinearise(const Model& model);
   std::vector<double> taken_off_mm() const;
   CleanedFit cleaned(std::vector<double> taken_off_mm) const;
-  void turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings,
-            const std::vector<Clamping>& before);
-  void note_steps(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings);
+  void turn(const Eigen::VectorXd& found, const Place& place);
+  void note_moved(const Eigen::VectorXd& found, const Place& place);
 
   const IdealModel& ideal_;
   std::vector<Hypothesis> terms_;     ///< a lag at the time constant found
   std::optional<ProbeStream> moved_;  ///< the stream at the spindle angles that a delay makes true
   std::optional<LinearisationPoint> point_;  ///< none: the first
   std::vector<double> known_mm_;   ///< what is known of the terms, added to the readings; or empty
-  std::vector<double> step_mm_;    ///< what is known of steps, added to the readings; or empty
-  std::vector<double> beyond_mm_;  ///< X after steps less X before, beyond the first order
+  std::vector<double> moved_mm_;   ///< known of steps and height, added to the readings; or empty
+  std::vector<double> beyond_mm_;  ///< what steps and height do to X, beyond the first order
   std::vector<double> turned_mm_;  ///< X at the true less X at the recorded angles; or empty
   std::vector<double> deviation_mm_;
   std::optional<Problem> problem_;
@@ -63,9 +71,14 @@ class RelinearisedFit {
   CleanedFit cleaned_;
 };
 
-/// The part after a step that was found, and nothing else: the ideal fit lies between the places of
-/// a part that moved, where whatever varies along Z looks like more of the move. None: no step.
-std::unique_ptr<RelinearisedFit> after_first_step(const IdealModel& ideal, const Model& model);
+/// The part after the first step that was found, and nothing else: the ideal fit lies between the
+/// places of a part that moved, where whatever varies along Z looks like more of the move. And the
+/// part at the time and the height of the probe that were found, if the second order of the model
+/// is worth a term (ln N). Empty: neither.
+/// @param fit of the model
+std::vector<std::unique_ptr<RelinearisedFit>> about_what_moves(const IdealModel& ideal,
+                                                               const Model& model,
+                                                               const RelinearisedFit& fit);
 
 /// What the second order says of a lag and a delay, which are one in the first: the model holds the
 /// better of the two.

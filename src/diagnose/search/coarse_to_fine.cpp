@@ -86,7 +86,7 @@ void date_steps(const Problem& whole, Model& model) {
 
 }  // namespace
 
-void CoarseToFineSearch::again(const Problem& whole) {
+CoarseToFineSearch::CoarseToFineSearch(const Problem& whole) {
   if (is_condensed(whole.point)) {
     search_means(whole);
   } else {

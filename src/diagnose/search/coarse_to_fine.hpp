@@ -15,13 +15,10 @@ namespace trueaxis::diagnose_detail {
 /// again.
 class CoarseToFineSearch {
  public:
-  explicit CoarseToFineSearch(const Problem& whole) { again(whole); }
+  /// @param whole outlives it, or what is asked next
+  explicit CoarseToFineSearch(const Problem& whole);
   CoarseToFineSearch(const CoarseToFineSearch&) = delete;
   CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
-
-  /// The same search about another part.
-  /// @param whole outlives it
-  void again(const Problem& whole);
 
   Model model;                                 ///< its noise is that of the readings
   Proposer& proposer() { return *proposer_; }  ///< of what was searched

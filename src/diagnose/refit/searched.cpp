@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/refit/searched.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnose/refit/places_before.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+Searched searched_in(const Problem& problem, const IdealModel& ideal) {
+  Searched out;
+  out.search = std::make_unique<CoarseToFineSearch>(problem);
+  out.fit = relinearise(ideal, out.search->model, out.timing);
+  out.moved = about_what_moves(ideal, out.search->model, *out.fit);
+  out.about = &problem;
+  for (const auto& part : out.moved) {
+    auto search = std::make_unique<CoarseToFineSearch>(part->problem());
+    std::optional<Timing> timing;
+    auto fit = relinearise(ideal, search->model, timing);
+    if (!(fit->criterion() < out.fit->criterion())) continue;
+    out.search = std::move(search), out.fit = std::move(fit), out.timing = timing;
+    out.about = &part->problem();
+  }
+  return out;
+}
+
+}  // namespace
+
+Searched searched(const IdealModel& ideal) {
+  Searched best = searched_in(ideal.problem, ideal);
+  if (std::ranges::count_if(best.search->model.terms, is_slip) < 2) return best;
+  Problem at_rest = ideal.problem;
+  std::erase_if(at_rest.effects, [](const Effect* effect) { return is_step(effect->term); });
+  Searched other = searched_in(at_rest, ideal);
+  if (!(other.fit->criterion() < best.fit->criterion())) return best;
+  if (other.about == &at_rest) other.search->about(*(other.about = &ideal.problem));
+  return other;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "diagnose/refit/relinearised_fit.hpp"
+#include "diagnose/search/coarse_to_fine.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// A model that was searched for, fitted about the part.
+struct Searched {
+  std::unique_ptr<CoarseToFineSearch> search;  ///< with the model
+  std::unique_ptr<RelinearisedFit> fit;
+  std::optional<Timing> timing;
+  std::vector<std::unique_ptr<RelinearisedFit>> moved;  ///< parts that were searched about
+  const Problem* about = nullptr;  ///< what the search was about: one of these, or the ideal part
+};
+
+/// Searches about the ideal fit, and then about the part after its first step, and at the time and
+/// height of the probe that were found: the best by N ln RSS + k ln N, each about its own part. Two
+/// steps are weighed against none, for they may cancel.
+/// @param ideal outlives what is returned
+Searched searched(const IdealModel& ideal);
+
+}  // namespace trueaxis::diagnose_detail
