@@ -30,9 +30,11 @@ Searched searched_in(const Problem& problem, const IdealModel& ideal) {
 
 Searched searched(const IdealModel& ideal) {
   Searched best = searched_in(ideal.problem, ideal);
-  if (std::ranges::count_if(best.search->model.terms, is_slip) < 2) return best;
+  const std::vector<Hypothesis>& terms = best.search->model.terms;
+  if (std::ranges::none_of(terms, is_slip)) return best;
   Problem at_rest = ideal.problem;
   std::erase_if(at_rest.effects, [](const Effect* effect) { return is_step(effect->term); });
+  at_rest.most_terms = std::min(at_rest.most_terms, terms.size() + 1);  // more are not simpler
   Searched other = searched_in(at_rest, ideal);
   if (!(other.fit->criterion() < best.fit->criterion())) return best;
   if (other.about == &at_rest) other.search->about(*(other.about = &ideal.problem));
