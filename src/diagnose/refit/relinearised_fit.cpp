@@ -290,6 +290,8 @@ std::unique_ptr<RelinearisedFit> with_shapes_refined(const IdealModel& ideal, Mo
 
 }  // namespace
 
+bool moves_probe(const Hypothesis& h) { return turns(h) || is_height(h); }
+
 std::vector<std::unique_ptr<RelinearisedFit>> about_what_moves(const IdealModel& ideal,
                                                                const Model& model,
                                                                const RelinearisedFit& fit) {
@@ -299,7 +301,7 @@ std::vector<std::unique_ptr<RelinearisedFit>> about_what_moves(const IdealModel&
   std::vector<Hypothesis> steps, probe;
   for (const Hypothesis& h : model.terms) {
     if (is_slip(h) && steps.empty()) steps.push_back(h);
-    if (bends && (turns(h) || is_height(h))) probe.push_back(h);
+    if (bends && moves_probe(h)) probe.push_back(h);
   }
   std::vector<std::unique_ptr<RelinearisedFit>> out;
   for (std::vector<Hypothesis>* some : {&steps, &probe}) {

@@ -80,6 +80,9 @@ std::vector<std::unique_ptr<RelinearisedFit>> about_what_moves(const IdealModel&
                                                                const Model& model,
                                                                const RelinearisedFit& fit);
 
+/// Whether a term is a delay, a lag or a height of the probe.
+bool moves_probe(const Hypothesis& h);
+
 /// What the second order says of a lag and a delay, which are one in the first: the model holds the
 /// better of the two.
 struct Timing {

@@ -21,8 +21,7 @@ struct Searched {
 
 /// Searches about the ideal fit, and then about the part after its first step, and at the time and
 /// height of the probe that were found: the best by N ln RSS + k ln N, each about its own part.
-/// Steps are weighed against a delay, lag or height whose second order counts, for to all orders
-/// they do the same.
+/// Steps are weighed against a delay, lag or height, for to all orders they do the same.
 /// @param ideal outlives what is returned
 Searched searched(const IdealModel& ideal);
 
