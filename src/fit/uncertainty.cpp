@@ -28,7 +28,8 @@ bool is_of_fit(const Influence& influence) {
 /// Jᵀa for the effect a of one unit of an influence on every reading; J column by column from the
 /// kernel.
 Eigen::VectorXd projected(const Surface& surface, std::span<const double> working,
-                          const PreparedStream& prepared, Influence::Kind kind) {
+                          const PreparedStream& prepared, const Influence& influence) {
+  const Influence::Kind kind = influence.kind;
   const std::size_t p = surface.parameter_count(), columns = surface.column_count();
   const ProbeStream& stream = prepared.source();
   std::vector<double> transform(p * columns);
@@ -44,7 +45,9 @@ Eigen::VectorXd projected(const Surface& surface, std::span<const double> workin
       double a = stream.reading_mm[row] - mean;
       if (kind != Influence::Kind::probe_gain) {
         const double position = stream.has_position() ? stream.position_mm[row] : 0.0;
-        const auto at = surface.influences(working, stream.c_rad[row], position);
+        const auto at =
+            surface.influences(working, stream.c_rad[row], position,
+                               kind == Influence::Kind::probe_height ? influence.value : 0.0);
         a = kind == Influence::Kind::probe_height ? at.height
             : kind == Influence::Kind::c_offset   ? at.c
                                                   : at.position;
@@ -268,7 +271,7 @@ std::vector<Source> budget_sources(const JointModel& model, const Association& a
       for (const JointPart& part : model.parts()) {
         const std::vector<double> working = model.working(joint, part);
         shift += model.working_jacobian(joint, part).transpose() *
-                 projected(*part.surface, working, *part.prepared, influence.kind);
+                 projected(*part.surface, working, *part.prepared, influence);
       }
       shift = determination.inverse * shift;
     }

@@ -112,7 +112,7 @@ Revolved ProfileSurface::shape(std::span<const double> working) const {
 }
 
 Surface::Influences ProfileSurface::influences(std::span<const double> working, double c_rad,
-                                               double position_mm) const {
+                                               double position_mm, double) const {
   const double guess = (frame_.root == Root::front ? 1.0 : -1.0) * shape(working).radius_mm;
   const Contact at = meet(working, std::cos(c_rad), std::sin(c_rad), position_mm, guess);
   if (!at.hit) return {};

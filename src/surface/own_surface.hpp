@@ -32,8 +32,8 @@ class ProfileSurface : public Surface {
   Axis axis(std::span<const double> working) const override;
   std::vector<double> axis_jacobian(std::span<const double> working) const override;
   Revolved shape(std::span<const double> working) const override;  ///< that touches in the middle
-  Influences influences(std::span<const double> working, double c_rad,
-                        double position_mm) const override;
+  Influences influences(std::span<const double> working, double c_rad, double position_mm,
+                        double probe_height_mm) const override;
 
  protected:
   static constexpr std::size_t line_parameters = 4;

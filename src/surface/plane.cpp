@@ -78,8 +78,8 @@ class Plane final : public Surface {
     return {{0.0, 0.0, -w[1], -w[2], w[0]}, 0.0, 0.0};
   }
 
-  Influences influences(std::span<const double> w, double c_rad,
-                        double position_mm) const override {
+  Influences influences(std::span<const double> w, double c_rad, double position_mm,
+                        double) const override {
     const double across = -w[1] * std::sin(c_rad) + w[2] * std::cos(c_rad);
     return {across, position_mm * across, w[1] * std::cos(c_rad) + w[2] * std::sin(c_rad)};
   }

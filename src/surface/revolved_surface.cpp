@@ -221,10 +221,11 @@ Revolved RevolvedSurface::shape(std::span<const double> working) const {
 }
 
 Surface::Influences RevolvedSurface::influences(std::span<const double> working, double c_rad,
-                                                double position_mm) const {
-  const Intersection at = intersect(probed(working), c_rad, position_mm, 0.0, frame_.root);
+                                                double position_mm, double probe_height_mm) const {
+  const Intersection at =
+      intersect(probed(working), c_rad, position_mm, probe_height_mm, frame_.root);
   if (!at.hit) return {};
-  return {at.dx_dc / at.x_mm, at.dx_dc, at.dx_dz};
+  return {(at.dx_dc - probe_height_mm) / at.x_mm, at.dx_dc, at.dx_dz};
 }
 
 }  // namespace trueaxis

@@ -31,8 +31,8 @@ class RevolvedSurface : public Surface {
   Axis axis(std::span<const double> working) const override;
   std::vector<double> axis_jacobian(std::span<const double> working) const override;
   Revolved shape(std::span<const double> working) const override;
-  Influences influences(std::span<const double> working, double c_rad,
-                        double position_mm) const override;
+  Influences influences(std::span<const double> working, double c_rad, double position_mm,
+                        double probe_height_mm) const override;
 
  protected:
   /// All six working parameters of any scalar type, those the surface lacks at their fixed value,

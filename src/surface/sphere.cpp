@@ -90,8 +90,8 @@ class Sphere final : public Surface {
   Revolved shape(std::span<const double> w) const override {
     return {axis(w), w[3] - frame_.ball_mm, 0.0};
   }
-  Influences influences(std::span<const double> w, double c_rad,
-                        double position_mm) const override {
+  Influences influences(std::span<const double> w, double c_rad, double position_mm,
+                        double) const override {
     const Meeting at = meet(w, std::cos(c_rad), std::sin(c_rad), position_mm);
     if (!(at.depth_mm > 0.0)) return {};
     const double slope = side_ / at.depth_mm;

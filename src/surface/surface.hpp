@@ -103,8 +103,9 @@ class Surface {
     double c = 0.0;         ///< per rad of spindle angle
     double position = 0.0;  ///< per mm of Z (of a face: of X)
   };
-  virtual Influences influences(std::span<const double> working, double c_rad,
-                                double position_mm) const = 0;
+  /// @param probe_height_mm of surfaces of revolution, of which alone one is stated
+  virtual Influences influences(std::span<const double> working, double c_rad, double position_mm,
+                                double probe_height_mm = 0.0) const = 0;
 };
 
 /// Every surface the engine knows, in the order it is listed.

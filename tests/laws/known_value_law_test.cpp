@@ -115,5 +115,32 @@ TEST(KnownValue, IsSharpenedByReadingsThatShowIt) {
   EXPECT_LE(off_in_u(s, d), 3.0);
 }
 
+// A probe 2 mm off height reads the radius 2²/2R, 80 µm, smaller. The lathe intersects the line;
+// the height stated, radius and axis are the part's to 4 of their u (one of 16 000). A u of the
+// height is in U of the radius with h/R: 2/25 of it.
+TEST(KnownValue, OfAHeightMakesTheRadiusRightAndLeavesItsU) {
+  constexpr double height_mm = 2.0, u_height_mm = 0.1;
+  Scenario s = probed_part(PartKind::cylinder);
+  s.part.x0_mm = 0.2, s.part.y0_mm = 0.1, s.part.radius_mm = 25.0;
+  s.noise.sigma_mm = 0.001;
+  s.effects = {{"probe.height", {{"height_mm", height_mm}}}};
+  for (const double off_mm : {0.0, 0.15}) {
+    s.seed = 5;
+    DiagnoseOptions options;
+    options.fit.surface = SurfaceKind::cylinder;
+    options.threads = 1;
+    options.fit.influences = {
+        {Influence::Kind::probe_height, off_mm == 0.0 ? 0.0 : u_height_mm, height_mm + off_mm}};
+    const Diagnosis d = diagnose(corrected_by_known(simulate(s), options.fit), options);
+    const Estimate& radius = find_parameter(d.extended.parameters, "radius");
+    EXPECT_NEAR(radius.value, s.part.radius_mm, 4.0 * radius.u) << off_mm;
+    EXPECT_LE(off_in_u(s, d), 4.0) << off_mm;
+    if (off_mm > 0.0) {
+      EXPECT_NEAR(radius.u, u_height_mm * (height_mm + off_mm) / 25.0,
+                  0.1 * u_height_mm * height_mm / 25.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

@@ -17,6 +17,24 @@ namespace {
 constexpr int times_about =
     6;  // about the surface again; each leaves the share of the axis that moved
 
+/// Whether the probe line runs beside the axis, and meets the surface there.
+bool moves_line(const Influence& influence, const ProbeStream& stream,
+                const std::vector<Clamping>& clampings) {
+  return influence.kind == Influence::Kind::probe_height && stream.kind == StreamKind::lateral &&
+         every_line_meets(stream, clampings, {}, influence.value);
+}
+
+/// X of a probe at a height less that of one at the axis, h²/2R of the radius included.
+std::vector<double> at_height_mm(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+                                 const LinearisationPoint& point, double height_mm) {
+  std::vector<double> out =
+      linearise_at(stream, clampings, point.base, point.bore, 1, {}, height_mm)
+          .column(&PointPart::x);
+  const std::vector<double> without = point.column(&PointPart::x);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= without[i];
+  return out;
+}
+
 /// What the stated values do to X about a fitted surface, mm, one a reading.
 std::vector<double> done_mm(const ProbeStream& stream, const FitOptions& options,
                             const FitResult& about) {
@@ -39,6 +57,8 @@ std::vector<double> done_mm(const ProbeStream& stream, const FitOptions& options
     const Hypothesis term = of_effect(*effect, typical_shape(*effect, point));
     const std::vector<double> one = is_lag(term) || is_delay(term)
                                         ? timing_mm(term, influence.value, point)
+                                    : moves_line(influence, stream, clampings)
+                                        ? at_height_mm(stream, clampings, point, influence.value)
                                         : contribution(point, {&term, 1}, {&influence.value, 1});
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += one[i];
   }

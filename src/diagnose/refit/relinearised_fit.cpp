@@ -14,6 +14,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+constexpr int most_rounds = 3;
+
 /// Whether a term moves the spindle angle that a reading tells of. (A backlash moves Z, in which X
 /// is straight.)
 bool turns(const Hypothesis& h) {
@@ -55,6 +57,9 @@ bool is_height(const Hypothesis& h) {
   return line != nullptr && line->of == ProbeLine::Of::height;
 }
 
+/// Whether a term moves the part or the probe, so that what is known of both is of its size.
+bool moves(const Hypothesis& h) { return moves_probe(h) || is_step_at_once(h); }
+
 /// The height of the probe, mm.
 double height_of(const std::vector<Hypothesis>& terms, const Eigen::VectorXd& found) {
   double out_mm = 0.0;
@@ -88,18 +93,48 @@ void subtract_base(std::vector<double>& from, const LinearisationPoint& point,
 
 RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
     : ideal_(ideal), terms_(model.terms) {
-  const Problem& first = ideal.problem;
   if (!terms_.empty()) relinearise(model);
-  deviation_mm_ = deviation_from(ideal.stream, point_ ? *point_ : first.point, first.threads);
+  solve_about(model.phi);
+  for (int round = 0; round < most_rounds && is_far(); ++round) {
+    place(coefficients_of_terms(), cleaned(taken_off_mm()).fit);
+    solve_about(model.phi);
+  }
+}
+
+/// All about the point, or the first.
+void RelinearisedFit::solve_about(const std::vector<double>& phi) {
+  const Problem& first = ideal_.problem;
+  deviation_mm_ = deviation_from(ideal_.stream, point_ ? *point_ : first.point, first.threads);
   if (!known_mm_.empty()) add(deviation_mm_, known_mm_);
   if (!moved_mm_.empty()) add(deviation_mm_, moved_mm_);
   problem_.emplace(first.about(point_ ? *point_ : first.point, deviation_mm_));
-  joint_.emplace(*problem_, model.phi, terms_, terms_.size());
-  const auto count = static_cast<Eigen::Index>(columns_of(terms_));
-  effect_mm_ = contribution(problem_->point, terms_,
-                            span_of(joint_->solution.coefficients.tail(count)), first.threads);
+  joint_.emplace(*problem_, phi, terms_, terms_.size());
+  const Eigen::VectorXd found = coefficients_of_terms();
+  effect_mm_ = contribution(problem_->point, terms_, span_of(found), first.threads);
   if (moved_) add(effect_mm_, turned_mm_);
   if (!beyond_mm_.empty()) add(effect_mm_, beyond_mm_);
+}
+
+Eigen::VectorXd RelinearisedFit::coefficients_of_terms() const {
+  return joint_->solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(terms_)));
+}
+
+/// Whether a size that moves part or probe has moved on by more than its u: lobes of 10 µm at nine
+/// per revolution are turned nine times as far as the surface.
+bool RelinearisedFit::is_far() const {
+  const Eigen::VectorXd found = coefficients_of_terms();
+  const Eigen::Index before = joint_->solution.coefficients.size() - found.size();
+  Eigen::Index at = 0;
+  for (const Hypothesis& h : terms_) {
+    const Eigen::Index end = at + static_cast<Eigen::Index>(h.columns());
+    for (; at < end; ++at) {
+      const double u =
+          joint_->sigma_mm * std::sqrt(joint_->solution.inverse(before + at, before + at));
+      if (moves(h) && placed_at_.size() > 0 && std::abs(found(at) - placed_at_(at)) > u)
+        return true;
+    }
+  }
+  return false;
 }
 
 /// What the terms add to the readings, for the surface.
@@ -163,25 +198,35 @@ void RelinearisedFit::relinearise(const Model& model) {
                     ideal_.masked)
             .fit;
     if (!is_diagnosable(extended)) return;
-    Place place{.after = clampings_of(extended, ideal_.ball_mm)};
-    if (rounds == 1 && !first.point.base.face) {
-      place.before = places_before(about->point, terms_, found, place.after);
-      place.height_mm = height_of(terms_, found);
-    }
-    if (!every_line_meets(ideal_.stream, place.after, place.before, place.height_mm))
-      place = {.after = std::move(place.after)};
     linearise_at_sizes(terms_, found, plays);
-    if (rounds == 1 && std::ranges::any_of(terms_, turns)) {
-      linearise_at_sizes(terms_, found, is_linearised_at_its_size);
-      turn(found, place);
-      return note_moved(found, place);
-    }
+    if (rounds == 1) return place(found, extended);
     about.reset();  // it is about the point that goes
-    point_ = point_at(ideal_.stream, place);
-    if (rounds == 1) return note_moved(found, place);
+    point_ = point_at(ideal_.stream, {.after = clampings_of(extended, ideal_.ball_mm)});
     deviation_mm_ = deviation_from(ideal_.stream, *point_, first.threads);
     about.emplace(first.about(*point_, deviation_mm_));
   }
+}
+
+/// Takes the point to where part and probe are with these sizes.
+/// @param extended the surface then
+void RelinearisedFit::place(const Eigen::VectorXd& found, const FitResult& extended) {
+  const LinearisationPoint& about = point_ ? *point_ : ideal_.point;
+  if (!is_diagnosable(extended)) return;
+  Place place{.after = clampings_of(extended, ideal_.ball_mm)};
+  if (!about.base.face) {
+    place.before = places_before(about, terms_, found, place.after);
+    place.height_mm = height_of(terms_, found);
+  }
+  if (!every_line_meets(ideal_.stream, place.after, place.before, place.height_mm))
+    place = {.after = std::move(place.after)};
+  if (std::ranges::any_of(terms_, moves)) placed_at_ = found;
+  if (std::ranges::any_of(terms_, turns)) {
+    linearise_at_sizes(terms_, found, is_linearised_at_its_size);
+    turn(found, place);
+  } else {
+    point_ = point_at(ideal_.stream, place);
+  }
+  note_moved(found, place);
 }
 
 /// Moves what all terms are about to the angles that delays and lags make true, and notes what is
@@ -229,6 +274,7 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const Place& place) {
 /// the probe. So what both do to X is known to all orders: (dx² + dy²)/2R and h dy/R beyond the
 /// first.
 void RelinearisedFit::note_moved(const Eigen::VectorXd& found, const Place& place) {
+  moved_mm_.clear(), beyond_mm_.clear();
   if (place.before.empty() && place.height_mm == 0.0) return;
   const Problem& first = ideal_.problem;
   moved_mm_.assign(first.point.size(), 0.0);

@@ -51,6 +51,10 @@ class RelinearisedFit {
   };
   LinearisationPoint point_at(const ProbeStream& stream, const Place& place) const;
   void relinearise(const Model& model);
+  void place(const Eigen::VectorXd& found, const FitResult& extended);
+  void solve_about(const std::vector<double>& phi);
+  bool is_far() const;
+  Eigen::VectorXd coefficients_of_terms() const;
   std::vector<double> taken_off_mm() const;
   CleanedFit cleaned(std::vector<double> taken_off_mm) const;
   void turn(const Eigen::VectorXd& found, const Place& place);
@@ -64,6 +68,7 @@ class RelinearisedFit {
   std::vector<double> moved_mm_;   ///< known of steps and height, added to the readings; or empty
   std::vector<double> beyond_mm_;  ///< what steps and height do to X, beyond the first order
   std::vector<double> turned_mm_;  ///< X at the true less X at the recorded angles; or empty
+  Eigen::VectorXd placed_at_;      ///< sizes that part and probe are moved by; or empty
   std::vector<double> deviation_mm_;
   std::optional<Problem> problem_;
   std::optional<Joint> joint_;
