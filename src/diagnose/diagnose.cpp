@@ -196,8 +196,10 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
   });
   if (!is_diagnosable(out.baseline)) return not_diagnosable(std::move(out));
 
-  const IdealModel ideal(stream, options, out.baseline, indicated);
+  IdealModel ideal(stream, options, out.baseline, indicated);
   Searched found = searched(ideal);
+  if (ideal.exclude_far_from(found.fit->residual_mm(), found.fit->joint().solution.columns.size()))
+    found = searched(ideal);
   CoarseToFineSearch& search = *found.search;
   std::unique_ptr<RelinearisedFit>& refit = found.fit;
   Explanation explanation;

@@ -40,6 +40,30 @@ void fill_rows(const LinearisationPoint& point, std::span<const Hypothesis> term
   });
 }
 
+/// Which readings are not far out of what is left of them, nor next to one that is.
+std::vector<char> near_of(const std::vector<double>& left, double sigma) {
+  const auto outside = [&](std::size_t i, double times) {
+    return std::abs(left[i]) > times * sigma;
+  };
+  std::vector<char> used(left.size(), 1);
+  for (std::size_t i = 0; i < used.size(); ++i) used[i] = !outside(i, far_out);
+  for (std::size_t i = 1; i < used.size(); ++i)
+    if (!used[i - 1] && outside(i, clings)) used[i] = 0;
+  for (std::size_t i = used.size() - 1; i-- > 0;)
+    if (!used[i + 1] && outside(i, clings)) used[i] = 0;
+  return used;
+}
+
+/// Too many are not outliers: the surface is another one.
+bool too_many(const std::vector<char>& used) {
+  return static_cast<std::size_t>(std::ranges::count(used, 0)) * 3 > used.size();
+}
+
+Rejected rejected(std::size_t i, double left_mm, double sigma_mm) {
+  return {i + 1, fmt::format("{:.3g} µm off, {:.1f} σ", left_mm / mm_per_um,
+                             std::abs(left_mm) / sigma_mm)};
+}
+
 }  // namespace
 
 Eigen::MatrixXd columns_of_rows(const LinearisationPoint& point, std::span<const double> deviation,
@@ -90,20 +114,11 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
   std::size_t masked = 0;
   for (int round = 0; round < 6; ++round) {
     sigma = mad_sigma(left);
-    std::vector<char> used(point.size(), 1);
-    const auto outside = [&](std::size_t i, double times) {
-      return std::abs(left[i]) > times * sigma;
-    };
-    for (std::size_t i = 0; i < point.size(); ++i) used[i] = !outside(i, far_out);
-    for (std::size_t i = 1; i < point.size(); ++i)
-      if (!used[i - 1] && outside(i, clings)) used[i] = 0;
-    for (std::size_t i = point.size() - 1; i-- > 0;)
-      if (!used[i + 1] && outside(i, clings)) used[i] = 0;
-    const auto count = static_cast<std::size_t>(std::ranges::count(used, 0));
-    if (count * 3 > point.size()) break;  // not outliers: the surface is another one
+    std::vector<char> used = near_of(left, sigma);
+    if (too_many(used)) break;
     const bool same = round > 0 && used == mask.used;
     mask.used = std::move(used);
-    masked = count;
+    masked = static_cast<std::size_t>(std::ranges::count(mask.used, 0));
     if (same || (round == 0 && masked == 0 && point.size() < least_rows)) break;
     mask.find_runs(point);
     NormalEquations equations(point, mask, deviation_mm, {}, threads);
@@ -116,10 +131,26 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
   mask.find_runs(point);
   std::vector<Rejected> list;
   for (std::size_t i = 0; i < point.size() && masked > 0; ++i) {
-    if (mask.used[i]) continue;
-    list.push_back({i + 1, fmt::format("{:.3g} µm off, {:.1f} σ", left[i] / mm_per_um,
-                                       std::abs(left[i]) / sigma)});
+    if (!mask.used[i]) list.push_back(rejected(i, left[i], sigma));
   }
+  return list;
+}
+
+std::vector<Rejected> mask_far_from(const LinearisationPoint& point,
+                                    const std::vector<double>& left_mm, ObservationMask& mask) {
+  std::vector<double> counting;
+  for (std::size_t i = 0; i < left_mm.size(); ++i)
+    if (mask.used[i]) counting.push_back(left_mm[i]);
+  const double sigma = mad_sigma(counting);
+  std::vector<char> used = near_of(left_mm, sigma);
+  std::vector<Rejected> list;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i] && mask.used[i]) list.push_back(rejected(i, left_mm[i], sigma));
+    used[i] = used[i] && mask.used[i];
+  }
+  if (list.empty() || too_many(used)) return {};
+  mask.used = std::move(used);
+  mask.find_runs(point);
   return list;
 }
 

@@ -28,6 +28,11 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
                                     int threads = 1);
 
+/// Masks as well what is as far from a model that was found: what it explains hid them before.
+/// @param left_mm readings less the model @returns those that are new
+std::vector<Rejected> mask_far_from(const LinearisationPoint& point,
+                                    const std::vector<double>& left_mm, ObservationMask& mask);
+
 /// Autoregressions of the noise after base, basis and terms, whose products without the terms are
 /// made once. By restricted maximum likelihood (the columns are integrated out, so that fitting
 /// them does not hide correlation); order 0, 1 or 2, each one only where the likelihood ratio

@@ -125,4 +125,12 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
   mask.alike_mm = alike_by_rounding(problem, measured.reading_mm);
 }
 
+bool IdealModel::exclude_far_from(const std::vector<double>& residual_mm, std::size_t columns) {
+  if (residual_mm.size() < 2 * columns) return false;  // half of them would be 0
+  const std::vector<Rejected> far = mask_far_from(point, residual_mm, mask);
+  masked.insert(masked.end(), far.begin(), far.end());
+  std::ranges::sort(masked, {}, &Rejected::row);
+  return !far.empty();
+}
+
 }  // namespace trueaxis::diagnose_detail

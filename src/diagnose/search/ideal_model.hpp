@@ -19,6 +19,11 @@ class IdealModel {
   IdealModel(const IdealModel&) = delete;
   IdealModel& operator=(const IdealModel&) = delete;
 
+  /// Excludes readings that are far from a model found, which what it explains hid.
+  /// @param columns of the model @returns whether there are some: then a search has to be made
+  /// again
+  bool exclude_far_from(const std::vector<double>& residual_mm, std::size_t columns);
+
   const ProbeStream& stream;
   const FitOptions& fit_options;
   const FitResult& fit;
@@ -29,7 +34,7 @@ class IdealModel {
   const Resolution resolution;
   const std::vector<double> deviation_mm;  ///< readings minus the surface
   const Problem problem;
-  const std::vector<Rejected> masked;  ///< readings that do not count, and why
+  std::vector<Rejected> masked;  ///< readings that do not count, and why
 };
 
 }  // namespace trueaxis::diagnose_detail
