@@ -60,6 +60,14 @@ bool is_height(const Hypothesis& h) {
 /// Whether a term moves the part or the probe, so that what is known of both is of its size.
 bool moves(const Hypothesis& h) { return moves_probe(h) || is_step_at_once(h); }
 
+/// What a term was given beside its sizes: a date, a frequency, a length, the place of a form.
+std::size_t shape_parameters(const Hypothesis& h) {
+  if (is_slip(h)) return is_step_at_once(h) ? 1 : 2;
+  if (is_line(h)) return 1;
+  if (!h.effect) return h.pattern.kind == Pattern::Kind::bump ? 4 : 0;
+  return h.effect->refinement && !is_linearised_at_its_size(h) ? 1 : 0;
+}
+
 /// The height of the probe, mm.
 double height_of(const std::vector<Hypothesis>& terms, const Eigen::VectorXd& found) {
   double out_mm = 0.0;
@@ -163,9 +171,10 @@ FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, BaseUncertainty
 
 double criterion_of(const Joint& joint) {
   const auto rows = static_cast<double>(joint.equations.count());
-  const auto dates = std::ranges::count_if(joint.terms, is_slip);
+  std::size_t parameters = joint.solution.rank;
+  for (const Hypothesis& h : joint.terms) parameters += shape_parameters(h);
   return rows * std::log(joint.solution.rss) - joint.equations.log_volume() +
-         static_cast<double>(joint.solution.rank + dates) * std::log(rows);
+         static_cast<double>(parameters) * std::log(rows);
 }
 
 std::vector<double> RelinearisedFit::residual_mm() const {

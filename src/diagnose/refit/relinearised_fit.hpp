@@ -11,7 +11,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// N ln RSS + k ln N (Schwarz 1978), the date of a slip counting in k.
+/// N ln RSS + k ln N (Schwarz 1978); what shapes a term, as the date of a slip, counts in k.
 double criterion_of(const Joint& joint);
 
 /// Surface and terms fitted about the first solution of both: about the part without the effects

@@ -36,9 +36,11 @@ Searched searched(const IdealModel& ideal) {
   std::erase_if(at_rest.effects, [](const Effect* effect) { return is_step(effect->term); });
   at_rest.most_terms = std::min(at_rest.most_terms, terms.size() + 1);  // more are not simpler
   Searched other = searched_in(at_rest, ideal);
-  if (std::ranges::none_of(other.search->model.terms, moves_probe) ||
-      !(other.fit->criterion() < best.fit->criterion()))
-    return best;
+  const std::vector<Hypothesis>& instead = other.search->model.terms;
+  const bool a_cause = std::ranges::any_of(instead, moves_probe) ||
+                       std::ranges::count(instead, nullptr, &Hypothesis::effect) <=
+                           std::ranges::count(terms, nullptr, &Hypothesis::effect);
+  if (!a_cause || !(other.fit->criterion() < best.fit->criterion())) return best;
   if (other.about == &at_rest) other.search->about(*(other.about = &ideal.problem));
   return other;
 }

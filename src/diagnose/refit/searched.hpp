@@ -21,7 +21,9 @@ struct Searched {
 
 /// Searches about the ideal fit, and then about the part after its first step, and at the time and
 /// height of the probe that were found: the best by N ln RSS + k ln N, each about its own part.
-/// Steps are weighed against a delay, lag or height, for to all orders they do the same.
+/// Steps are weighed against a search without any: a delay, lag or height does the same to all
+/// orders, and a step that takes its time the same as what varies along Z. A pattern that has no
+/// cause is no reason against a step.
 /// @param ideal outlives what is returned
 Searched searched(const IdealModel& ideal);
 

@@ -17,8 +17,9 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-constexpr double far_out = 8.0;  // MAD σ; a real local form peaks at 4.5 σ
-constexpr double clings = 3.0;   // next to a reading far out
+constexpr double far_out = 8.0;        // MAD σ; a real local form peaks at 4.5 σ
+constexpr double clings = 3.0;         // next to a reading far out
+constexpr std::size_t most_alone = 2;  // readings in a row; more are a dent or an edge
 constexpr std::size_t noise_chunk = 512;
 constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matters
 constexpr std::size_t least_rows = 200;
@@ -142,11 +143,20 @@ std::vector<Rejected> mask_far_from(const LinearisationPoint& point,
   for (std::size_t i = 0; i < left_mm.size(); ++i)
     if (mask.used[i]) counting.push_back(left_mm[i]);
   const double sigma = mad_sigma(counting);
-  std::vector<char> used = near_of(left_mm, sigma);
+  const std::vector<char> near = near_of(left_mm, sigma);
+  std::vector<char> used = mask.used;
   std::vector<Rejected> list;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i] && mask.used[i]) list.push_back(rejected(i, left_mm[i], sigma));
-    used[i] = used[i] && mask.used[i];
+  const auto out = [&](std::size_t i) { return !near[i] || !mask.used[i]; };
+  for (std::size_t i = 0, end = 0; i < near.size(); i = end + 1) {
+    for (end = i; end < near.size() && out(end); ++end) continue;
+    const bool known =
+        std::any_of(mask.used.begin() + static_cast<long>(i),
+                    mask.used.begin() + static_cast<long>(end), [](char one) { return !one; });
+    if (end == i || end - i > most_alone || known) continue;
+    for (std::size_t k = i; k < end; ++k) {
+      used[k] = 0;
+      list.push_back(rejected(k, left_mm[k], sigma));
+    }
   }
   if (list.empty() || too_many(used)) return {};
   mask.used = std::move(used);

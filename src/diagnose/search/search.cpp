@@ -22,9 +22,10 @@ constexpr double in_the_class = 1e-3;   // probability, as of any class
 Model search_with(StepwiseSearch& engine) {
   bool pattern_was_better = false;
   Model causes = engine.run(false, pattern_was_better);
-  if (!pattern_was_better) return causes;
+  if (!pattern_was_better) return engine.unless_noise(std::move(causes));
   Model mixed = engine.run(true, pattern_was_better);
-  return mixed.criterion < causes.criterion ? mixed : causes;
+  return engine.unless_noise(mixed.criterion < causes.criterion ? std::move(mixed)
+                                                                : std::move(causes));
 }
 
 /// Lobes of every order that few angles show, as far as there are twice as many readings: where

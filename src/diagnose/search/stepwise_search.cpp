@@ -55,6 +55,23 @@ class StepwiseSearch::Engine {
     return std::move(model_);
   }
 
+  Model unless_noise(Model model) {
+    if (model.terms.empty() || problem_.resolution.sparse) return model;
+    if (!correlated_)
+      correlated_ = NoiseEstimator(problem_.point, problem_.mask, problem_.deviation_mm, {},
+                                   problem_.threads)({})
+                        .phi;
+    model_ = {};
+    model_.phi = *correlated_;
+    finish();
+    const double alone = model_.criterion + static_cast<double>(model_.phi.size()) *
+                                                std::log(static_cast<double>(rows()));
+    if (!(alone + 2.0 * std::log(problem_.false_alarm) < model.criterion)) return model;
+    model.terms.clear(), model.p_values.clear();
+    model.phi = model_.phi, model.criterion = alone;
+    return model;
+  }
+
   // What infer/stepwise.hpp asks of a side.
 
   Terms& terms() { return model_.terms; }
@@ -159,6 +176,8 @@ class StepwiseSearch::Engine {
   LocalFormsTaken local_forms = LocalFormsTaken::any;
 
  private:
+  std::size_t rows() { return made_of(model_.terms).in.count; }
+
   bool may_be_taken(const Candidate& c) const {
     return local_forms == LocalFormsTaken::any || !is_local(c.hypothesis);
   }
@@ -309,6 +328,7 @@ class StepwiseSearch::Engine {
   const Problem& problem_;
   NoiseEstimator noise_;
   std::optional<std::vector<double>> first_noise_;
+  std::optional<std::vector<double>> correlated_;  ///< φ of the residuals of the surface alone
   std::deque<Made> made_;
   Model model_;  ///< of the run
   bool patterns_ = false;
@@ -319,6 +339,8 @@ StepwiseSearch::StepwiseSearch(Proposer& proposer) : engine_(std::make_unique<En
 StepwiseSearch::~StepwiseSearch() = default;
 
 void StepwiseSearch::take_local_forms(LocalFormsTaken which) { engine_->local_forms = which; }
+
+Model StepwiseSearch::unless_noise(Model model) { return engine_->unless_noise(std::move(model)); }
 
 Model StepwiseSearch::run(bool patterns, bool& pattern_was_better, std::vector<Hypothesis> first) {
   return engine_->run(patterns, pattern_was_better, std::move(first));

@@ -25,6 +25,10 @@ class StepwiseSearch {
   /// @param first terms to begin with
   Model run(bool patterns, bool& pattern_was_better, std::vector<Hypothesis> first = {});
 
+  /// The model, or none where noise alone, as correlated as the readings may show it, is not less
+  /// probable than the false alarm: before any term what is slow is not counted as noise.
+  Model unless_noise(Model model);
+
  private:
   class Engine;
   std::unique_ptr<Engine> engine_;
