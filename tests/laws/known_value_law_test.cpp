@@ -129,8 +129,12 @@ TEST(KnownValue, OfAHeightMakesTheRadiusRightAndLeavesItsU) {
     DiagnoseOptions options;
     options.fit.surface = SurfaceKind::cylinder;
     options.threads = 1;
-    options.fit.influences = {
-        {Influence::Kind::probe_height, off_mm == 0.0 ? 0.0 : u_height_mm, height_mm + off_mm}};
+    using Kind = Influence::Kind;
+    for (const Kind known : {Kind::probe_gain, Kind::probe_delay, Kind::probe_lag, Kind::probe_tilt,
+                             Kind::xz_parallelism})
+      options.fit.influences.push_back({known, 0.0});
+    options.fit.influences.push_back(
+        {Kind::probe_height, off_mm == 0.0 ? 0.0 : u_height_mm, height_mm + off_mm});
     const Diagnosis d = diagnose(corrected_by_known(simulate(s), options.fit), options);
     const Estimate& radius = find_parameter(d.extended.parameters, "radius");
     EXPECT_NEAR(radius.value, s.part.radius_mm, 4.0 * radius.u) << off_mm;

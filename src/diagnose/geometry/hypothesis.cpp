@@ -105,19 +105,29 @@ void raise_degree(const Hypothesis& function, const LinearisationPoint& point, c
     for (std::size_t k = 0; k < at.size(); ++k) columns[j][k] = size[k] * constant[j][k];
 }
 
+/// Readings that are corrected by a stated height were read there.
+static TermContext context_of(const Effect& effect, const LinearisationPoint& point,
+                              const PointPart& part) {
+  TermContext at = point.context(part);
+  if (effect.stated && effect.stated->kind == Influence::Kind::probe_height)
+    at.height_mm += effect.stated->value;
+  return at;
+}
+
 void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, const PointPart& part,
           std::span<double* const> columns) {
   if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, part, columns);
   const EffectTerm& term = hypothesis.effect->term;
   if (hypothesis.free.empty())
-    return fill_columns(term, point.context(part), hypothesis.shape, columns);
+    return fill_columns(term, context_of(*hypothesis.effect, point, part), hypothesis.shape,
+                        columns);
   const std::size_t all = linear_count(term, hypothesis.shape);
   expects(all <= most_parameters, "a term has a few linear parameters");
   const std::unique_ptr<double[]> spare = room_for(part.size() * all);
   double* target[most_parameters];
   for (std::size_t j = 0; j < all; ++j) target[j] = spare.get() + j * part.size();
   for (std::size_t j = 0; j < hypothesis.free.size(); ++j) target[hypothesis.free[j]] = columns[j];
-  fill_columns(term, point.context(part), hypothesis.shape, {target, all});
+  fill_columns(term, context_of(*hypothesis.effect, point, part), hypothesis.shape, {target, all});
 }
 
 Hypothesis of_effect(const Effect& effect, TermShape shape, std::vector<std::size_t> free,

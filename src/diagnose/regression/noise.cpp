@@ -19,7 +19,7 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr double far_out = 8.0;        // MAD σ; a real local form peaks at 4.5 σ
 constexpr double clings = 3.0;         // next to a reading far out
-constexpr std::size_t most_alone = 2;  // readings in a row; more are a dent or an edge
+constexpr std::size_t most_alone = 3;  // readings in a row; more are a dent or an edge
 constexpr std::size_t noise_chunk = 512;
 constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matters
 constexpr std::size_t least_rows = 200;

@@ -28,8 +28,8 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
                                     int threads = 1);
 
-/// Masks as well one reading alone, or two, as far from a model that was found: what it explains
-/// hid them before.
+/// Masks as well one to three readings in a row as far from a model that was found: what it
+/// explains hid them before.
 /// @param left_mm readings less the model @returns those that are new
 std::vector<Rejected> mask_far_from(const LinearisationPoint& point,
                                     const std::vector<double>& left_mm, ObservationMask& mask);
