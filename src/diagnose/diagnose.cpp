@@ -198,7 +198,9 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
 
   IdealModel ideal(stream, options, out.baseline, indicated);
   Searched found = searched(ideal);
-  if (ideal.exclude_far_from(found.fit->residual_mm(), found.fit->joint().solution.columns.size()))
+  const std::size_t columns = found.fit->joint().solution.columns.size();
+  if (ideal.exclude_far_from(found.fit->residual_mm(), columns) ||
+      (!found.at_rest_mm.empty() && ideal.exclude_far_from(found.at_rest_mm, columns)))
     found = searched(ideal);
   CoarseToFineSearch& search = *found.search;
   std::unique_ptr<RelinearisedFit>& refit = found.fit;

@@ -40,7 +40,10 @@ Searched searched(const IdealModel& ideal) {
   const bool a_cause = std::ranges::any_of(instead, moves_probe) ||
                        std::ranges::count(instead, nullptr, &Hypothesis::effect) <=
                            std::ranges::count(terms, nullptr, &Hypothesis::effect);
-  if (!a_cause || !(other.fit->criterion() < best.fit->criterion())) return best;
+  if (!a_cause || !(other.fit->criterion() < best.fit->criterion())) {
+    best.at_rest_mm = other.fit->residual_mm();
+    return best;
+  }
   if (other.about == &at_rest) other.search->about(*(other.about = &ideal.problem));
   return other;
 }

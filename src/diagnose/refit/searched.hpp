@@ -16,6 +16,7 @@ struct Searched {
   std::unique_ptr<RelinearisedFit> fit;
   std::optional<Timing> timing;
   std::vector<std::unique_ptr<RelinearisedFit>> moved;  ///< parts that were searched about
+  std::vector<double> at_rest_mm;  ///< of a model with slips: what one without any leaves
   const Problem* about = nullptr;  ///< what the search was about: one of these, or the ideal part
 };
 
