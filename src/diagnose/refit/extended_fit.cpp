@@ -121,7 +121,7 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
     result.budget.push_back(std::move(line));
   };
   for (const StatedPart& part : base.stated) {
-    std::erase_if(result.budget,  // of the ideal fit, where nothing was taken off
+    std::erase_if(result.budget,  // of the ideal fit
                   [&](const BudgetLine& line) { return line.source == part.name; });
     const Eigen::VectorXd variance =
         (slope * of_last(part.covariance) * slope.transpose()).diagonal();

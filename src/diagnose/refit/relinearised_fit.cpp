@@ -60,7 +60,8 @@ bool is_height(const Hypothesis& h) {
 /// Whether a term moves the part or the probe, so that what is known of both is of its size.
 bool moves(const Hypothesis& h) { return moves_probe(h) || is_step_at_once(h); }
 
-/// What a term was given beside its sizes: a date, a frequency, a length, the place of a form.
+/// What shapes a term, in addition to its sizes: a date, a frequency, a length, the place of a
+/// form.
 std::size_t shape_parameters(const Hypothesis& h) {
   if (is_slip(h)) return is_step_at_once(h) ? 1 : 2;
   if (is_line(h)) return 1;
