@@ -81,8 +81,8 @@ TEST(LastingSlip, IsNoBendOfAPart) {
   EXPECT_LE(slipped, 1);
 }
 
-// A delay of 15 ms that is found as 16.5 ms at first turns lobes of nine per revolution by 5 deg
-// too far at 60/min and by 12 deg at 150/min. What that leaves was a slip, 6 µm off at U 0.7 µm.
+// A delay of 18 ms is 1.5 ms off in the first solution. That turns lobes of nine per revolution by
+// 5 deg too far at 60/min and by 12 deg at 151/min. What it left was a slip, 6 µm off at U 0.7 µm.
 TEST(DelayOfTheProbe, TurnsLobesByAsMuchAsWasFoundInTheEnd) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Scenario scenario = turned_cylinder(seed, 10.4, 0.0016);

@@ -24,7 +24,7 @@ struct Searched {
 /// height of the probe that were found: the best by N ln RSS + k ln N, each about its own part.
 /// Steps are weighed against a search without any: a delay, lag or height does the same to all
 /// orders, and a step that takes its time the same as what varies along Z. A pattern that has no
-/// cause is no reason against a step.
+/// cause does not speak against a step.
 /// @param ideal outlives what is returned
 Searched searched(const IdealModel& ideal);
 

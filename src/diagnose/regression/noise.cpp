@@ -41,7 +41,7 @@ void fill_rows(const LinearisationPoint& point, std::span<const Hypothesis> term
   });
 }
 
-/// Which readings are not far out of what is left of them, nor next to one that is.
+/// Which residuals are not far out, nor next to one that is.
 std::vector<char> near_of(const std::vector<double>& left, double sigma) {
   const auto outside = [&](std::size_t i, double times) {
     return std::abs(left[i]) > times * sigma;
