@@ -17,7 +17,7 @@ namespace {
 constexpr int times_about =
     6;  // about the surface again; each leaves the share of the axis that moved
 
-/// Whether the probe line runs beside the axis, and meets the surface there.
+/// Whether the probe line is off the axis, and meets the surface there.
 bool moves_line(const Influence& influence, const ProbeStream& stream,
                 const std::vector<Clamping>& clampings) {
   return influence.kind == Influence::Kind::probe_height && stream.kind == StreamKind::lateral &&

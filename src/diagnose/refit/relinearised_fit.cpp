@@ -60,6 +60,15 @@ bool is_height(const Hypothesis& h) {
 /// Whether a term moves the part or the probe, so that what is known of both is of its size.
 bool moves(const Hypothesis& h) { return moves_probe(h) || is_step_at_once(h); }
 
+/// Whether readings stay on their side of the axis without the terms: those of an absurd model do
+/// not.
+bool leaves_a_part(const ProbeStream& stream, const std::vector<double>& taken_mm) {
+  if (stream.kind == StreamKind::face || stream.indication == Indication::relative) return true;
+  for (std::size_t i = 0; i < taken_mm.size(); ++i)
+    if (!((stream.reading_mm[i] - taken_mm[i]) * stream.reading_mm[i] > 0.0)) return false;
+  return true;
+}
+
 /// What shapes a term, in addition to its sizes: a date, a frequency, a length, the place of a
 /// form.
 std::size_t shape_parameters(const Hypothesis& h) {
@@ -105,7 +114,9 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
   if (!terms_.empty()) relinearise(model);
   solve_about(model.phi);
   for (int round = 0; round < most_rounds && is_far(); ++round) {
-    place(coefficients_of_terms(), cleaned(taken_off_mm()).fit);
+    std::vector<double> taken_mm = taken_off_mm();
+    if (!leaves_a_part(ideal.stream, taken_mm)) break;
+    place(coefficients_of_terms(), cleaned(std::move(taken_mm)).fit);
     solve_about(model.phi);
   }
 }
@@ -202,11 +213,11 @@ void RelinearisedFit::relinearise(const Model& model) {
     const Joint near(*about, model.phi, terms_, terms_.size());
     const Eigen::VectorXd found =
         near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(terms_)));
+    std::vector<double> taken_mm =
+        contribution(about->point, terms_, span_of(found), first.threads);
+    if (!leaves_a_part(ideal_.stream, taken_mm)) return;
     const FitResult extended =
-        fit_cleaned(ideal_.stream, bare,
-                    contribution(about->point, terms_, span_of(found), first.threads), first.mask,
-                    ideal_.masked)
-            .fit;
+        fit_cleaned(ideal_.stream, bare, std::move(taken_mm), first.mask, ideal_.masked).fit;
     if (!is_diagnosable(extended)) return;
     linearise_at_sizes(terms_, found, plays);
     if (rounds == 1) return place(found, extended);
