@@ -21,7 +21,7 @@ constexpr double surely_found = 40.0;
 
 double log_p_value(double gain, double rank, double rss, double freedom) {
   const double left = freedom - rank;
-  if (!(gain > 0.0) || rank < 1.0 || left < 1.0) return 0.0;
+  if (!(gain > 0.0) || !(rss > 0.0) || rank < 1.0 || left < 1.0) return 0.0;
   const double rest = std::max(rss - gain, 1e-12 * rss);
   const double f = gain / rank / (rest / left);
   // Far out the tail of the F distribution is (1 + q F/ν)^(−ν/2) up to a factor that changes

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "base/threads.hpp"
@@ -182,6 +183,8 @@ FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, BaseUncertainty
 }
 
 double criterion_of(const Joint& joint) {
+  // Columns of an absurd model, which cancel, may leave less than nothing.
+  if (!(joint.solution.rss > 0.0)) return std::numeric_limits<double>::infinity();
   const auto rows = static_cast<double>(joint.equations.count());
   std::size_t parameters = joint.solution.rank;
   for (const Hypothesis& h : joint.terms) parameters += shape_parameters(h);
