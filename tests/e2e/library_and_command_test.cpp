@@ -50,17 +50,6 @@ TEST_F(LibraryAndCommand, DecideTheShippedJobsAlike) {
   EXPECT_GE(count, 3u);
 }
 
-/// The stream of RunRefusals.FindingsThatTheLatheRefutes: the tolerance alone would let it go.
-TEST_F(LibraryAndCommand, RefuseAlikeWhatTheLatheRefutes) {
-  file("part.toml", refuted_shaft());
-  ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
-  file("job.toml",
-       simple_job(cylinder_reference, 120.0, 1000.0) + "[actuator]\nstroke_um = 4000\n");
-  const JobResult result = expect_same(folder_ / "job.toml");
-  EXPECT_FALSE(result.verdict.go());
-  EXPECT_EQ(result.verdict.reasons.at(0).code, ReasonCode::not_reproduced);
-}
-
 /// The stream of RunRefusals.AHeightThatIsImplausibleMovesNoAxis.
 TEST_F(LibraryAndCommand, DecideAlikeAboutAnImplausibleCause) {
   file("part.toml",

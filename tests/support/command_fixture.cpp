@@ -37,8 +37,4 @@ std::string shaft_with(const std::string& effect, const std::string& sigma_um, d
   return part + effect;
 }
 
-std::string refuted_shaft() {
-  return shaft_with("id = \"encoder.eccentricity\"\namplitude_deg = 3.2\n", "2", 1400.0, 10.0, 8);
-}
-
 }  // namespace trueaxis::testing

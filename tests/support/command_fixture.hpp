@@ -40,9 +40,4 @@ inline const char* const cylinder_reference = "stream = \"part.csv\"\nsurface = 
 std::string shaft_with(const std::string& effect, const std::string& sigma_um, double x0_um,
                        double radius_mm, int seed);
 
-/// An encoder that is 3.2 deg off its centre under a part 1.4 mm off the spindle's. Of the
-/// catalogue's linearised terms that of a probe millimetres off the centre's height comes nearest
-/// to it, and that height moves the lathe's readings quite otherwise.
-std::string refuted_shaft();
-
 }  // namespace trueaxis::testing
