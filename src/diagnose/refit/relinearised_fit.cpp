@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "base/threads.hpp"
+#include "diagnose/refit/criterion.hpp"
 #include "diagnose/refit/places_before.hpp"
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/noise.hpp"
@@ -68,15 +68,6 @@ bool leaves_a_part(const ProbeStream& stream, const std::vector<double>& taken_m
   for (std::size_t i = 0; i < taken_mm.size(); ++i)
     if (!((stream.reading_mm[i] - taken_mm[i]) * stream.reading_mm[i] > 0.0)) return false;
   return true;
-}
-
-/// What shapes a term, in addition to its sizes: a date, a frequency, a length, the place of a
-/// form.
-std::size_t shape_parameters(const Hypothesis& h) {
-  if (is_slip(h)) return is_step_at_once(h) ? 1 : 2;
-  if (is_line(h)) return 1;
-  if (!h.effect) return h.pattern.kind == Pattern::Kind::bump ? 4 : 0;
-  return h.effect->refinement && !is_linearised_at_its_size(h) ? 1 : 0;
 }
 
 /// The height of the probe, mm.
@@ -180,16 +171,6 @@ FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, BaseUncertainty
   std::vector<double> moved = taken_off_mm();
   subtract_base(moved, point, shift, problem_->threads);
   return extended_fit(cleaned(std::move(moved)), point, base);
-}
-
-double criterion_of(const Joint& joint) {
-  // Columns of an absurd model, which cancel, may leave less than nothing.
-  if (!(joint.solution.rss > 0.0)) return std::numeric_limits<double>::infinity();
-  const auto rows = static_cast<double>(joint.equations.count());
-  std::size_t parameters = joint.solution.rank;
-  for (const Hypothesis& h : joint.terms) parameters += shape_parameters(h);
-  return rows * std::log(joint.solution.rss) - joint.equations.log_volume() +
-         static_cast<double>(parameters) * std::log(rows);
 }
 
 std::vector<double> RelinearisedFit::residual_mm() const {
