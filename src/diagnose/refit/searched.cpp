@@ -5,9 +5,19 @@
 #include <utility>
 
 #include "diagnose/refit/places_before.hpp"
+#include "diagnose/search/scan.hpp"
+#include "diagnose/search/scan_list.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
+
+constexpr double cycles_of_a_line = 2.0;  // beside one per turn: with fewer a bend looks like it
+
+bool is_slow_line(const Problem& problem, const Hypothesis& h) {
+  if (!h.effect || !h.effect->line) return false;
+  const Extent slow = slow_lines(problem, h.effect->line->in);
+  return frequency_of(h) > slow.low && frequency_of(h) < slow.high;
+}
 
 Searched searched_in(const Problem& problem, const IdealModel& ideal) {
   Searched out;
@@ -26,26 +36,38 @@ Searched searched_in(const Problem& problem, const IdealModel& ideal) {
   return out;
 }
 
-}  // namespace
-
-Searched searched(const IdealModel& ideal) {
-  Searched best = searched_in(ideal.problem, ideal);
+/// Takes the model of a search that leaves something out, if it is the better: more terms are not
+/// simpler, and neither are patterns that have no cause.
+/// @returns what that model leaves of the readings, if it is not the better
+std::vector<double> weigh_against(Problem without, const IdealModel& ideal, Searched& best) {
   const std::vector<Hypothesis>& terms = best.search->model.terms;
-  if (std::ranges::none_of(terms, is_slip)) return best;
-  Problem at_rest = ideal.problem;
-  std::erase_if(at_rest.effects, [](const Effect* effect) { return is_step(effect->term); });
-  at_rest.most_terms = std::min(at_rest.most_terms, terms.size() + 1);  // more are not simpler
-  Searched other = searched_in(at_rest, ideal);
+  without.most_terms = std::min(without.most_terms, terms.size() + 1);
+  Searched other = searched_in(without, ideal);
   const std::vector<Hypothesis>& instead = other.search->model.terms;
   const bool a_cause = std::ranges::any_of(instead, moves_probe) ||
                        std::ranges::count(instead, nullptr, &Hypothesis::effect) <=
                            std::ranges::count(terms, nullptr, &Hypothesis::effect);
-  if (!a_cause || !(other.fit->criterion() < best.fit->criterion())) {
-    best.at_rest_mm = other.fit->residual_mm();
-    return best;
+  if (!a_cause || !(other.fit->criterion() < best.fit->criterion()))
+    return other.fit->residual_mm();
+  if (other.about == &without) other.search->about(*(other.about = &ideal.problem));
+  best = std::move(other);
+  return {};
+}
+
+}  // namespace
+
+Searched searched(const IdealModel& ideal) {
+  Searched best = searched_in(ideal.problem, ideal);
+  Problem without = ideal.problem;
+  if (std::ranges::any_of(best.search->model.terms, is_slip)) {
+    std::erase_if(without.effects, [](const Effect* effect) { return is_step(effect->term); });
+    best.at_rest_mm = weigh_against(without, ideal, best);
+    if (!best.at_rest_mm.empty()) without.effects = ideal.problem.effects;
   }
-  if (other.about == &at_rest) other.search->about(*(other.about = &ideal.problem));
-  return other;
+  without.fewest_cycles = cycles_of_a_line;
+  const auto slow = [&](const Hypothesis& h) { return is_slow_line(without, h); };
+  if (std::ranges::any_of(best.search->model.terms, slow)) weigh_against(without, ideal, best);
+  return best;
 }
 
 }  // namespace trueaxis::diagnose_detail

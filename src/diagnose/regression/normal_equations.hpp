@@ -54,11 +54,15 @@ struct Problem {
   const Problem* whole = nullptr;  ///< all readings
   std::vector<Hypothesis> fast{};  ///< lines found in all readings that means do not show
   double fast_bandwidth = 0.0;     ///< of what was scanned for them
+  /// Lines that over a single pass have fewer beside one cycle per turn are not looked for.
+  double fewest_cycles = 0.75;
 
   /// The same readings about another point.
   Problem about(const LinearisationPoint& other, std::span<const double> deviation) const {
-    return {other,   mask,       resolution, deviation,  false_alarm,
-            threads, most_terms, effects,    rounding_mm};
+    Problem out{other,   mask,       resolution, deviation,  false_alarm,
+                threads, most_terms, effects,    rounding_mm};
+    out.fewest_cycles = fewest_cycles;
+    return out;
   }
 };
 

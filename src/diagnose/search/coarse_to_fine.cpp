@@ -101,7 +101,8 @@ Proposer& CoarseToFineSearch::over_means(const Problem& whole) {
   if (!scanner_) scanner_.emplace(whole, &means_);
   problem_.emplace(Problem{means_.point, means_.mask, whole.resolution, means_.deviation_mm,
                            whole.false_alarm, whole.threads, whole.most_terms, whole.effects, 0.0,
-                           &means_, &whole, candidates_, scanner_->bandwidth()});
+                           &means_, &whole, candidates_, scanner_->bandwidth(),
+                           whole.fewest_cycles});
   return proposer_.emplace(*problem_);
 }
 

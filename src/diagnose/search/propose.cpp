@@ -36,16 +36,12 @@ void erase_impossible(std::vector<Candidate>& list) {
 
 bool better(const Candidate& a, const Candidate& b) { return a.criterion < b.criterion; }
 
-bool is_spiral(const Hypothesis& h) {
-  return h.effect && h.effect->line && h.effect->line->in == SpectralLine::In::spiral;
-}
-
 /// Variants of a hypothesis in a round of refining.
 std::vector<Hypothesis> variants(const Hypothesis& h, const Problem& problem, double step,
                                  double line_step) {
   if (!is_line(h)) return neighbours(h, problem.point, step);
   const double f = frequency_of(h);
-  const Extent slow = is_spiral(h) ? slow_spirals(problem) : Extent{0.0, 0.0};
+  const Extent slow = h.effect ? slow_lines(problem, h.effect->line->in) : Extent{0.0, 0.0};
   const auto is_slow = [&](double of) { return of > slow.low && of < slow.high; };
   std::vector<Hypothesis> out;
   for (const double to : {std::max(f - line_step, 1e-6), f + line_step})
@@ -160,7 +156,7 @@ void add_tilts(const Hypothesis& named, const Problem& problem, std::vector<Hypo
 /// Spirals nearly of the lead of a single pass: none is searched there, and each may be what was
 /// named for a taper or a barrel.
 void add_slow_spirals(const Problem& problem, std::vector<Hypothesis>& list) {
-  const Extent slow = slow_spirals(problem);
+  const Extent slow = slow_lines(problem, SpectralLine::In::spiral);
   if (!(slow.length() > 0.0)) return;
   for (const Effect* effect : problem.effects) {
     if (!effect->line || effect->line->in != SpectralLine::In::spiral) continue;

@@ -141,16 +141,17 @@ PointColumn column_of(SpectralLine::In in) {
   return &PointPart::s;
 }
 
-Extent slow_spirals(const Problem& problem) {
+Extent slow_lines(const Problem& problem, SpectralLine::In in) {
   const LinearisationPoint& point = problem.whole ? problem.whole->point : problem.point;
-  if (!problem.resolution.one_variable || !point.has_position) return {0.0, 0.0};
+  if (!problem.resolution.one_variable || in == SpectralLine::In::sensed) return {0.0, 0.0};
   const Pass& pass =
       *std::ranges::max_element(point.passes, {}, [](const Pass& p) { return p.end - p.begin; });
-  const double along = travel(point, &PointPart::s, pass);
-  const double turns = (point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
-  if (!(turns * along > 0.0)) return {0.0, 0.0};
-  const double of_lead = turns / along, slow = fewest_cycles / std::abs(along);
-  return {of_lead - slow, of_lead + slow};
+  const double turns = travel(point, &PointPart::c, pass) / two_pi;
+  const double along = travel(point, column_of(in), pass);
+  const bool other_way = in == SpectralLine::In::spiral && turns * along < 0.0;
+  if (other_way || turns == 0.0 || along == 0.0) return {0.0, 0.0};
+  const double once_a_turn = std::abs(turns / along), slow = problem.fewest_cycles / std::abs(along);
+  return {once_a_turn - slow, once_a_turn + slow};
 }
 
 std::vector<Scan> scans_of(const Problem& problem) {
@@ -166,7 +167,7 @@ std::vector<Scan> scans_of(const Problem& problem) {
           !(std::abs(point.tan_half_angle) > least_tangent))
         continue;
       list.push_back(scan_of(*effect, of, point));
-      if (in == spiral) list.back().left_out = slow_spirals(problem);
+      list.back().left_out = slow_lines(problem, in);
     }
     // If there is one variable, the lines of C are these too.
     const bool same = resolution.one_variable && !list.empty() && list[0].x == &PointPart::c;
