@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "infer/significance.hpp"
 #include "math/linear_algebra.hpp"
@@ -64,6 +65,20 @@ double Fitted::criterion(const WeighTerm& weigh_term, bool one_width) const {
   if (one_width && !terms.empty())
     sum += shared_width(project(gram, base), infer::besides({}, terms), joined(sizes));
   return sum;
+}
+
+std::vector<std::size_t> left_over(Fitted model, const std::function<bool(double)>& passes) {
+  std::vector<std::size_t> left(model.terms.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  while (!left.empty()) {
+    std::vector<double> log_p;
+    for (std::size_t i = 0; i < left.size(); ++i) log_p.push_back(model.log_p(i));
+    const auto weakest = std::ranges::max_element(log_p);
+    if (passes(*weakest)) break;
+    left.erase(left.begin() + (weakest - log_p.begin()));
+    model.terms.erase(model.terms.begin() + (weakest - log_p.begin()));
+  }
+  return left;
 }
 
 }  // namespace trueaxis::infer

@@ -45,4 +45,7 @@ struct Fitted {
   double criterion(const WeighTerm& weigh_term, bool one_width = false) const;
 };
 
+/// The terms that are left after the weakest went, one by one, until all pass (Eq. 69).
+std::vector<std::size_t> left_over(Fitted model, const std::function<bool(double log_p)>& passes);
+
 }  // namespace trueaxis::infer

@@ -85,6 +85,35 @@ TEST(LastingSlip, IsNoBendOfAPart) {
   EXPECT_LE(slipped, 1);
 }
 
+// In two passes of two turns a barrel, a bend and a play of the slide hide each other: step by step
+// all three were found in 7 of these 16 streams, and nothing in one, 11 µm off. All causes at once
+// leave the noise alone, and what is not needed goes.
+TEST(CausesThatHideEachOther, AreWhatIsLeftOfAll) {
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    Scenario scenario = turned_cylinder(seed, 21.0, 0.0011);
+    scenario.u_end_mm = 16.6;
+    PlannedPass out = scenario.plan.passes[0];
+    out.start_mm = 0.0, out.end_mm = 16.6;
+    out.feed_mm_per_rev = 7.7, out.readings_per_revolution = 26.0;
+    PlannedPass back = out;
+    std::swap(back.start_mm, back.end_mm);
+    back.speed_rpm = 150.0;
+    scenario.plan.passes = {out, back};
+    scenario.effects = {{"part.bow",
+                         {{"sagitta_mm", 0.012},
+                          {"direction_rad", 0.9 * double(seed)},
+                          {"length_mm", 16.6},
+                          {"middle_mm", 8.3},
+                          {"share", 1.0 / 3.0}}},
+                        {"part.barrel", {{"amplitude_mm", 0.023}}},
+                        {"slide.backlash", {{"across_mm", -0.0033}, {"along_mm", 0.0}}}};
+    const Diagnosis diagnosis = diagnosed_cylinder(simulate(scenario));
+    EXPECT_EQ(diagnosis.findings.size(), 3U) << seed;
+    EXPECT_TRUE(diagnosis.unexplained.empty()) << seed;
+    expect_axis_after(scenario, 0.0, 0.0, 16.6, diagnosis);
+  }
+}
+
 // A delay of 18 ms is 1.5 ms off in the first solution. That turns lobes of nine per revolution by
 // 5 deg too far at 60/min and by 12 deg at 151/min. What it left was a slip, 6 µm off at U 0.7 µm.
 TEST(DelayOfTheProbe, TurnsLobesByAsMuchAsWasFoundInTheEnd) {

@@ -150,7 +150,8 @@ Extent slow_lines(const Problem& problem, SpectralLine::In in) {
   const double along = travel(point, column_of(in), pass);
   const bool other_way = in == SpectralLine::In::spiral && turns * along < 0.0;
   if (other_way || turns == 0.0 || along == 0.0) return {0.0, 0.0};
-  const double once_a_turn = std::abs(turns / along), slow = problem.fewest_cycles / std::abs(along);
+  const double once_a_turn = std::abs(turns / along),
+               slow = problem.fewest_cycles / std::abs(along);
   return {once_a_turn - slow, once_a_turn + slow};
 }
 

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "diagnose/regression/joint.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/form_with_lobes.hpp"
 #include "diagnose/search/judge.hpp"
+#include "diagnose/search/scan.hpp"
 #include "diagnose/search/stepwise_search.hpp"
 #include "infer/classes.hpp"
 #include "infer/fitted.hpp"
@@ -22,10 +24,41 @@ constexpr double in_the_class = 1e-3;   // probability, as of any class
 Model search_with(StepwiseSearch& engine) {
   bool pattern_was_better = false;
   Model causes = engine.run(false, pattern_was_better);
-  if (!pattern_was_better) return engine.unless_noise(std::move(causes));
+  if (!pattern_was_better) return causes;
   Model mixed = engine.run(true, pattern_was_better);
-  return engine.unless_noise(mixed.criterion < causes.criterion ? std::move(mixed)
-                                                                : std::move(causes));
+  return mixed.criterion < causes.criterion ? std::move(mixed) : std::move(causes);
+}
+
+/// The causes of a model, but for steps, and all others that have no line and no order to look for,
+/// each with all its sizes, as far as there are four times as many readings.
+std::vector<Hypothesis> all_that_may_be(const Problem& problem, const Model& model) {
+  std::vector<Hypothesis> out;
+  std::ranges::copy_if(model.terms, std::back_inserter(out),
+                       [](const Hypothesis& h) { return h.effect && !is_step(h.effect->term); });
+  std::size_t columns = problem.point.base.columns() + columns_of(out);
+  const auto found = static_cast<std::ptrdiff_t>(out.size());
+  for (const Hypothesis& h : preset_causes(problem)) {
+    if (is_line(h) || is_step(h.effect->term) || has_free_order(*h.effect)) continue;
+    const auto had = std::ranges::find(out, h.effect, &Hypothesis::effect);
+    const std::size_t before = had == out.end() ? 0 : had->columns();
+    if (had - out.begin() < found || h.columns() <= before ||
+        4 * (columns + h.columns() - before) > problem.point.size())
+      continue;
+    columns += h.columns() - before;
+    if (had == out.end())
+      out.push_back(h);
+    else
+      *had = h;
+  }
+  return out;
+}
+
+/// What is found step by step from nothing, or what is left of all that may be: where several
+/// causes are large each hides the others, and what is none of them takes their place.
+Model forward_or_backward(StepwiseSearch& engine, const Problem& problem) {
+  Model model = search_with(engine);
+  Model left = engine.left_of(all_that_may_be(problem, model), model);
+  return engine.unless_noise(left.criterion < model.criterion ? std::move(left) : std::move(model));
 }
 
 /// Lobes of every order that few angles show, as far as there are twice as many readings: where
@@ -177,7 +210,7 @@ Model weighed_without_bend(Model model, const Problem& problem) {
   Proposer proposer(straight);
   StepwiseSearch engine(proposer);
   std::vector<Model> found{std::move(model)};
-  found.push_back(search_with(engine));
+  found.push_back(forward_or_backward(engine, straight));
   count_as_bend(problem, found.front(), found.back());
   return best_of(problem, std::move(found));
 }
@@ -188,7 +221,7 @@ Model search(Proposer& proposer) {
   StepwiseSearch engine(proposer);
   const Problem& problem = proposer.problem();
   if (problem.resolution.sparse) return search_few_angles(proposer, engine);
-  return weighed_without_bend(search_with(engine), problem);
+  return weighed_without_bend(forward_or_backward(engine, problem), problem);
 }
 
 }  // namespace trueaxis::diagnose_detail

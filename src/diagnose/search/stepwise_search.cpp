@@ -55,6 +55,26 @@ class StepwiseSearch::Engine {
     return std::move(model_);
   }
 
+  Model left_of(Terms first, const Model& found) {
+    bool ignored = false;
+    patterns_ = false;
+    pattern_was_better_ = &ignored;
+    model_ = {};
+    model_.family = found.family;
+    model_.phi = noise_(first).phi;
+    for (const std::size_t i :
+         infer::left_over(made_of(first).in, [&](double log_p) { return passes(log_p); }))
+      model_.terms.push_back(first[i]);
+    const auto was_found = [&](const Hypothesis& h) {
+      return std::ranges::any_of(found.terms, [&](const Hypothesis& o) { return same(o, h); });
+    };
+    if (model_.terms.size() == found.terms.size() && std::ranges::all_of(model_.terms, was_found))
+      return found;
+    search_stepwise(*this);
+    finish();
+    return std::move(model_);
+  }
+
   Model unless_noise(Model model) {
     if (model.terms.empty() || problem_.resolution.sparse) return model;
     if (!correlated_)
@@ -339,6 +359,10 @@ StepwiseSearch::StepwiseSearch(Proposer& proposer) : engine_(std::make_unique<En
 StepwiseSearch::~StepwiseSearch() = default;
 
 void StepwiseSearch::take_local_forms(LocalFormsTaken which) { engine_->local_forms = which; }
+
+Model StepwiseSearch::left_of(std::vector<Hypothesis> first, const Model& found) {
+  return engine_->left_of(std::move(first), found);
+}
 
 Model StepwiseSearch::unless_noise(Model model) { return engine_->unless_noise(std::move(model)); }
 

@@ -25,6 +25,10 @@ class StepwiseSearch {
   /// @param first terms to begin with
   Model run(bool patterns, bool& pattern_was_better, std::vector<Hypothesis> first = {});
 
+  /// What is left of terms after those that fail went, and from there as run().
+  /// @returns `found` if that is it
+  Model left_of(std::vector<Hypothesis> first, const Model& found);
+
   /// The model, or none where noise alone, as correlated as the readings may show it, is not less
   /// probable than the false alarm: before any term what is slow is not counted as noise.
   Model unless_noise(Model model);
