@@ -89,6 +89,8 @@ TEST(Actuator, MeasuredResponseIsInterpolatedInLogGainAndUnwrappedPhase) {
   EXPECT_NEAR(std::remainder(std::arg(actuator.response(350.0)) + 6.0, 2.0 * pi), 0.0, 2e-9);
   // Gain 1 at 100 Hz falls by a factor 4 in 100 Hz: 1/sqrt(2) after a quarter of that.
   EXPECT_NEAR(actuator.bandwidth_hz(), 125.0, 1e-9);
+  actuator.measured.front().gain = 0.5;  // has fallen before the first point
+  EXPECT_EQ(actuator.bandwidth_hz(), 0.0);
 }
 
 TEST(Actuator, MeasuredResponseOfASecondOrderIsThatSecondOrder) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "correct/control/control_table.hpp"
 #include "trueaxis/control_table.hpp"
 #include "trueaxis/correction.hpp"
 
@@ -66,6 +67,19 @@ TEST(ControlTableValue, BeyondThePathItsEndsAreHeld) {
     const double end = 40.0 + (revolutions - 1) * feed_mm;
     EXPECT_EQ(table.at(0.25, end + feed_mm), table.at(0.25, end));
   }
+}
+
+// A turn on, and a turn back, is the same place of a table that a control reads by its angle.
+TEST(CorrectionGrid, HasThePeriodOfATurn) {
+  CorrectionGrid grid;
+  grid.position_mm = {0.0, 2.0}, grid.angles = 5;
+  grid.value_mm = {0.0, 1.0, 4.0, 9.0, 0.0, 10.0, 11.0, 14.0, 19.0, 10.0};
+  constexpr double quarter = 1.5707963267948966;
+  for (const double turns : {-8.0, -4.0, 0.0, 4.0, 400.0}) {
+    EXPECT_NEAR(grid.between((1.25 + turns) * quarter, 0.0), 1.75, 1e-9) << turns;
+    EXPECT_NEAR(grid.between((3.5 + turns) * quarter, 1.0), 9.5, 1e-9) << turns;
+  }
+  EXPECT_EQ(grid.between(quarter, 7.0), 11.0) << "its end is held";
 }
 
 }  // namespace

@@ -136,6 +136,7 @@ TEST(InferDictionary, IndependentTestsAreThoseOfTheEigenvalues) {
   };
   EXPECT_NEAR(independent(0.0), 3.0, 1e-12);
   EXPECT_NEAR(independent(0.6), 2.0, 1e-12);
+  EXPECT_EQ(Dictionary({}, Eigen::VectorXd::Unit(8, 7)).independent_tests(), 0.0);
 }
 
 // In the phase that shows it least λ of a size is its square times the least eigenvalue of the

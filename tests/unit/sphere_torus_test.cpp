@@ -114,6 +114,28 @@ TEST(Torus, GrooveAndBeadOfShaftAndBore) {
     }
 }
 
+// A ball is met at the other side of the spindle by half a turn. The same surface with the same u.
+TEST(SphereTorus, AreTheSameFromBehind) {
+  for (const SurfaceKind surface : {SurfaceKind::sphere, SurfaceKind::torus}) {
+    ProbeStream stream = surface == SurfaceKind::sphere ? sphere(25.0) : torus(30.0, 6.0, true);
+    FitOptions options;
+    options.surface = surface;
+    std::mt19937_64 engine(7);
+    std::normal_distribution<double> normal(0.0, 1e-3);
+    for (double& x : stream.reading_mm) x += normal(engine);
+    const FitResult front = fit(stream, options);
+    for (double& x : stream.reading_mm) x = -x;
+    for (double& c : stream.c_rad) c += 0.5 * turn;
+    const FitResult rear = fit(stream, options);
+    ASSERT_EQ(rear.status, FitStatus::converged) << rear.message;
+    for (std::size_t i = 0; i < front.parameters.size(); ++i) {
+      const Estimate &a = front.parameters[i].estimate, &b = rear.parameters[i].estimate;
+      EXPECT_NEAR(b.value, a.value, 10 * rounding_mm) << front.parameters[i].name;
+      EXPECT_NEAR(b.u, a.u, 1e-9 * a.u) << front.parameters[i].name;
+    }
+  }
+}
+
 // Lengths below 1 mm are lengths as others.
 TEST(SphereTorus, AreFoundHoweverSmall) {
   FitOptions options;

@@ -69,6 +69,50 @@ TEST(RevolvedStart, LevelIsExactForASurfaceAlongTheSpindle) {
   }
 }
 
+// With a tilt it leaves out x² bx², which at 40 mm and 3 mrad is 1e-4 of (40 mm)² · 1e-5.
+TEST(RevolvedStart, IsNearASurfaceThatLeans) {
+  for (const double t : {0.0, 0.15, -0.3}) {
+    const Revolved surface{{1.3, -0.7, 3e-3, -2e-3, 55.0}, 40.0, t};
+    const LevelReadings readings(surface);
+    SurfaceFrame frame;
+    frame.position_ref_mm = 55.0, frame.half_length_mm = 30.0;
+    const auto start = catalogue_entry(SurfaceKind::cone).make(frame)->start(readings.block(), 240);
+    const double expected[] = {1.3, -0.7, 3e-3, -2e-3, 40.0, t};
+    const double dropped = 40.0 * 13e-6;  // half of r (bx² + by²), and as much of the slopes' own
+    ASSERT_EQ(start.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(start[i], expected[i], i < 2 || i == 4 ? dropped : dropped / 30.0)
+          << t << ' ' << i;
+  }
+}
+
+// What is reported, Eqs. 24 and 25, by differences of its own formulas: where the axis crosses
+// Z = 0, its direction, the apex and the half angle.
+TEST(SurfaceCatalogue, ReportedJacobianIsThatOfTheReportedNumbers) {
+  const auto reported = [](const std::array<double, 6>& at,
+                           double z_mm) {  // x, y, slopes, R, t at z
+    const double n = 1.0 / std::hypot(1.0, at[2], at[3]);
+    return std::array<double, 6>{
+        at[0] - at[2] * z_mm,       at[1] - at[3] * z_mm, at[2] * n, at[3] * n,
+        (z_mm / n) - at[4] / at[5], -std::atan(at[5])};
+  };
+  Revolved cone{{1.3, -0.7, 0.3, -0.2, 55.0}, 40.0, -0.3};
+  const double z = 70.0, s = 15.0 * std::hypot(1.0, 0.3, 0.2);
+  const std::array<double, 6> at{
+      1.3 + 0.3 * 15.0, -0.7 - 0.2 * 15.0, 0.3, -0.2, 40.0 - 0.3 * s, -0.3};
+  const std::vector<double> jacobian = reported_jacobian(SurfaceKind::cone, cone, z);
+  ASSERT_EQ(jacobian.size(), 36U);
+  for (std::size_t j = 0; j < 6; ++j) {
+    std::array<double, 6> up = at, down = at;
+    constexpr double h = 1e-5;
+    up[j] += h, down[j] -= h;
+    const auto a = reported(up, z), b = reported(down, z);
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(jacobian[6 * i + j], (a[i] - b[i]) / (2.0 * h), 1e-6 * (1.0 + std::abs(a[i])))
+          << i << ' ' << j;
+  }
+}
+
 /// d prediction / d working of a block by differences, against the columns; h⁴ and rounding over h.
 void expect_derivatives(const Surface& surface, const std::vector<double>& working,
                         const LevelReadings& at) {

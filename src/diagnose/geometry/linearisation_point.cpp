@@ -207,11 +207,21 @@ void LinearisationPoint::fill_base(const PointPart& at, std::span<double* const>
     columns[own + 2][k] = 1.0;
   }
   if (base.face) return;
-  for (std::size_t k = 0; k < at.size(); ++k) {
+  auto slipped = before.begin();
+  double turn_cosine = 1.0, turn_sine = 0.0;
+  for (std::size_t k = 0, until = at.begin; k < at.size(); ++k) {
+    if (at.begin + k == until) {  // another place of a part that slipped
+      while (slipped != before.end() && slipped->until <= until) ++slipped;
+      const double turn = slipped == before.end() ? 0.0 : slipped->slips_by_rad;
+      turn_cosine = std::cos(turn), turn_sine = std::sin(turn);
+      until = slipped == before.end() ? size() : slipped->until;
+    }
     const std::size_t own = at.axis[k] * per_axis;
-    const double cosine = at.cosine[k], sine = at.sine[k], dx_dy = at.dx_dy[k];
+    // Those of the part where it is in the end, turned back to where it was.
+    const double cosine = turn_cosine * at.cosine[k] - turn_sine * at.sine[k],
+                 sine = turn_sine * at.cosine[k] + turn_cosine * at.sine[k];
+    const double dx_dy = at.dx_dy[k], normal = at.dx_dnormal[k];
     const double along_x = cosine + sine * dx_dy, along_y = sine - cosine * dx_dy;
-    const double normal = at.dx_dnormal[k];
     columns[own][k] = along_x;
     columns[own + 1][k] = along_y;
     if (base.tilts) {

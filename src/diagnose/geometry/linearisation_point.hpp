@@ -28,6 +28,7 @@ struct Clamping {
   double reindex_rad = 0.0, z_shift_mm = 0.0, x_jog_mm = 0.0, clamp_force_ratio = 1.0;
   std::size_t axis = 0;  ///< which axis of the base it has: set-ups not moved share one
   std::size_t until = std::numeric_limits<std::size_t>::max();  ///< the reading it ends before
+  double slips_by_rad = 0.0;  ///< the part turns in the sense of C until the last clamping
 };
 
 /// What the base of the model is: rigid motions of every axis, and the shape all share.

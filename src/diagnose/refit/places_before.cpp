@@ -64,6 +64,7 @@ std::vector<Clamping> places_before(const LinearisationPoint& point,
     for (Clamping& clamping : now) {
       clamping.until = until;
       clamping.shape.axis = undone(clamping.shape.axis, step, point.z_mid_mm);
+      clamping.slips_by_rad += step.turn_rad;
     }
     out.insert(out.begin(), now.begin(), now.end());
   }

@@ -11,7 +11,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double cycles_of_a_line = 2.0;  // beside one per turn: with fewer a bend looks like it
+constexpr double cycles_of_a_line = 2.0;  // nearer to one per revolution a bend looks like it
 
 bool is_slow_line(const Problem& problem, const Hypothesis& h) {
   if (!h.effect || !h.effect->line) return false;

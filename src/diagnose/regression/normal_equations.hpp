@@ -54,7 +54,7 @@ struct Problem {
   const Problem* whole = nullptr;  ///< all readings
   std::vector<Hypothesis> fast{};  ///< lines found in all readings that means do not show
   double fast_bandwidth = 0.0;     ///< of what was scanned for them
-  /// Lines that over a single pass have fewer beside one cycle per turn are not looked for.
+  /// Over a single pass, how far from one per revolution a line is to be looked for.
   double fewest_cycles = 0.75;
 
   /// The same readings about another point.

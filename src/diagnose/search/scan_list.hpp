@@ -22,9 +22,9 @@ struct Scan {
   Extent left_out{0.0, 0.0};
 };
 
-/// Frequencies of lines that have fewer than Problem::fewest_cycles of their own over a single
-/// pass, being nearly of once per turn: there they are a bend, and spirals, such as feed marks of
-/// nearly the lead, a taper and a barrel. Both 0: none.
+/// Frequencies of lines that over a single pass are fewer cycles than Problem::fewest_cycles from
+/// one per revolution. There they are a bend, and spirals, such as feed marks of nearly the lead,
+/// a taper and a barrel. Both 0: there are no such lines.
 Extent slow_lines(const Problem& problem, SpectralLine::In in);
 
 /// The scans that a stream lets be made; of means those of the whole.

@@ -29,8 +29,8 @@ Model search_with(StepwiseSearch& engine) {
   return mixed.criterion < causes.criterion ? std::move(mixed) : std::move(causes);
 }
 
-/// The causes of a model, but for steps, and all others that have no line and no order to look for,
-/// each with all its sizes, as far as there are four times as many readings.
+/// The causes of a model, without steps, and all others that have no line and no order to look for,
+/// each with all its sizes. There are at least four readings a column.
 std::vector<Hypothesis> all_that_may_be(const Problem& problem, const Model& model) {
   std::vector<Hypothesis> out;
   std::ranges::copy_if(model.terms, std::back_inserter(out),
@@ -53,8 +53,8 @@ std::vector<Hypothesis> all_that_may_be(const Problem& problem, const Model& mod
   return out;
 }
 
-/// What is found step by step from nothing, or what is left of all that may be: where several
-/// causes are large each hides the others, and what is none of them takes their place.
+/// Found step by step from nothing, or by dropping from all that may be. Where several causes are
+/// large, each hides the others, and something else takes their place.
 Model forward_or_backward(StepwiseSearch& engine, const Problem& problem) {
   Model model = search_with(engine);
   Model left = engine.left_of(all_that_may_be(problem, model), model);

@@ -25,7 +25,7 @@ class StepwiseSearch {
   /// @param first terms to begin with
   Model run(bool patterns, bool& pattern_was_better, std::vector<Hypothesis> first = {});
 
-  /// What is left of terms after those that fail went, and from there as run().
+  /// Begins with the terms that remain after those that fail are dropped, then goes on as run().
   /// @returns `found` if that is it
   Model left_of(std::vector<Hypothesis> first, const Model& found);
 
