@@ -10,6 +10,7 @@
 #include "blind/families.hpp"
 #include "blind/size.hpp"
 #include "fit/place_set_ups.hpp"
+#include "job/doubts.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::axis {
@@ -318,6 +319,7 @@ Outcome run_case(Group group, std::uint64_t seed) {
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   out.ideal = judge(out.made, diagnosis.baseline.axis);
   out.extended = judge(out.made, diagnosis.extended.axis);
+  out.stated = diagnosis.extended.axis_known() && !why_axis_unknown(stream, diagnosis);
   const auto add = [](std::string& list, const std::string& id) {
     list += list.empty() ? id : '+' + id;
   };

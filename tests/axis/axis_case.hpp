@@ -68,6 +68,7 @@ struct Outcome {
   Case made;
   std::size_t readings = 0;
   Judged ideal, extended;
+  bool stated = true;  ///< whether the command states the axis, and does not withhold it
   double seconds = 0.0;
   std::string hidden, found;
 };

@@ -25,13 +25,15 @@ constexpr std::size_t slice = 100;
 
 std::string line_of(std::string_view group, const axis::Outcome& o) {
   return fmt::format(
-      "{},{},{},{},{},{},{:.3f},{},{},{:.5f},{:.5f},{},{:.5f},{:.5f},{:.5f},{},{:.5f},{:.4f},{},{}"
+      "{},{},{},{},{},{},{:.3f},{},{},{:.5f},{:.5f},{},{:.5f},{:.5f},{:.5f},{},{:.5f},{:d},{:.4f},{"
+      "},{}"
       "\n",
       group, o.made.seed, blind::to_string(o.made.plan), o.made.surface, o.made.side, o.made.noise,
       o.made.scenario.part.radius_mm, o.readings, o.made.scenario.effects.size(),
       1e3 * o.ideal.rms_mm(), 1e3 * o.ideal.u_rms_mm(), o.ideal.covered(),
       1e3 * o.ideal.interval_score_mm(), 1e3 * o.extended.rms_mm(), 1e3 * o.extended.u_rms_mm(),
-      o.extended.covered(), 1e3 * o.extended.interval_score_mm(), o.seconds, o.hidden, o.found);
+      o.extended.covered(), 1e3 * o.extended.interval_score_mm(), o.stated, o.seconds, o.hidden,
+      o.found);
 }
 
 /// One case for a person: what was drawn, where the axis is, what the diagnosis says of it.
@@ -91,7 +93,7 @@ int main(int argc, char** argv) {
   std::ofstream out(csv);
   out << "group,seed,plan,surface,side,noise,radius_mm,readings,effects,ideal_um,u_ideal_um,"
          "covered_ideal,score_ideal_um,extended_um,u_extended_um,covered_extended,score_extended_"
-         "um,"
+         "um,stated,"
          "seconds,hidden,found\n";
   for (const axis::Group group : axis::groups) {
     if (!wanted(group)) continue;
