@@ -67,18 +67,19 @@ double Fitted::criterion(const WeighTerm& weigh_term, bool one_width) const {
   return sum;
 }
 
-std::vector<std::size_t> left_over(Fitted model, const std::function<bool(double)>& passes) {
-  std::vector<std::size_t> left(model.terms.size());
-  std::iota(left.begin(), left.end(), std::size_t{0});
-  while (!left.empty()) {
-    std::vector<double> log_p;
-    for (std::size_t i = 0; i < left.size(); ++i) log_p.push_back(model.log_p(i));
-    const auto weakest = std::ranges::max_element(log_p);
-    if (passes(*weakest)) break;
-    left.erase(left.begin() + (weakest - log_p.begin()));
-    model.terms.erase(model.terms.begin() + (weakest - log_p.begin()));
+std::vector<std::size_t> remaining(Fitted model, std::vector<double> level) {
+  std::vector<std::size_t> out(model.terms.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  while (!out.empty()) {
+    std::vector<double> over;
+    for (std::size_t i = 0; i < out.size(); ++i) over.push_back(model.log_p(i) - level[i]);
+    const auto weakest = std::ranges::max_element(over) - over.begin();
+    if (over[static_cast<std::size_t>(weakest)] < 0.0) break;
+    out.erase(out.begin() + weakest);
+    level.erase(level.begin() + weakest);
+    model.terms.erase(model.terms.begin() + weakest);
   }
-  return left;
+  return out;
 }
 
 }  // namespace trueaxis::infer

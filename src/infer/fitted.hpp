@@ -45,7 +45,8 @@ struct Fitted {
   double criterion(const WeighTerm& weigh_term, bool one_width = false) const;
 };
 
-/// The terms that are left after the weakest went, one by one, until all pass (Eq. 69).
-std::vector<std::size_t> left_over(Fitted model, const std::function<bool(double log_p)>& passes);
+/// The terms that remain after the weakest were dropped, one by one, until all pass (Eq. 69).
+/// @param level ln of the p-value that each has to be below
+std::vector<std::size_t> remaining(Fitted model, std::vector<double> level);
 
 }  // namespace trueaxis::infer

@@ -11,6 +11,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+constexpr int most_searches = 2;          // about what moves
 constexpr double cycles_of_a_line = 2.0;  // nearer to one per revolution a bend looks like it
 
 bool is_slow_line(const Problem& problem, const Hypothesis& h) {
@@ -21,17 +22,25 @@ bool is_slow_line(const Problem& problem, const Hypothesis& h) {
 
 Searched searched_in(const Problem& problem, const IdealModel& ideal) {
   Searched out;
-  out.search = std::make_unique<CoarseToFineSearch>(problem);
-  out.fit = relinearise(ideal, out.search->model, out.timing);
-  out.moved = about_what_moves(ideal, out.search->model, *out.fit);
-  out.about = &problem;
-  for (const auto& part : out.moved) {
-    auto search = std::make_unique<CoarseToFineSearch>(part->problem());
+  bool dropped = false;
+  const auto search_about = [&](const Problem& about) {
+    auto search = std::make_unique<CoarseToFineSearch>(about);
+    const std::size_t found = search->model.terms.size();
     std::optional<Timing> timing;
     auto fit = relinearise(ideal, search->model, timing);
-    if (!(fit->criterion() < out.fit->criterion())) continue;
+    if (out.fit && !(fit->criterion() < out.fit->criterion())) return;
+    dropped = search->model.terms.size() < found;
     out.search = std::move(search), out.fit = std::move(fit), out.timing = timing;
-    out.about = &part->problem();
+    out.about = &about;
+  };
+  search_about(problem);
+  // If the fit dropped terms, what was searched about was not near enough.
+  for (int round = 0; round < most_searches && (round == 0 || dropped); ++round) {
+    dropped = false;
+    for (auto& part : about_what_moves(ideal, out.search->model, *out.fit)) {
+      out.moved.push_back(std::move(part));
+      search_about(out.moved.back()->problem());
+    }
   }
   return out;
 }

@@ -62,8 +62,9 @@ class StepwiseSearch::Engine {
     model_ = {};
     model_.family = found.family;
     model_.phi = noise_(first).phi;
+    const double level = std::log(model_.family.single_level(problem_.false_alarm));
     for (const std::size_t i :
-         infer::left_over(made_of(first).in, [&](double log_p) { return passes(log_p); }))
+         infer::remaining(made_of(first).in, std::vector<double>(first.size(), level)))
       model_.terms.push_back(first[i]);
     const auto was_found = [&](const Hypothesis& h) {
       return std::ranges::any_of(found.terms, [&](const Hypothesis& o) { return same(o, h); });
