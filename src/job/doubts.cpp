@@ -51,6 +51,12 @@ std::optional<double> order_in(const TermValue& term, const Pass& pass) {
   return {};
 }
 
+/// Whether it is the same all round the part, such as a waviness: however long, it moves no axis.
+bool is_round(const TermValue& term) {
+  const auto* wave = term.effect ? std::get_if<PeriodicInZ>(&term.effect->term) : nullptr;
+  return wave != nullptr && wave->turns == 0.0;
+}
+
 /// Whether a term goes with the eccentricity in every pass: it then beats with it so slowly that
 /// the axis takes its amplitude in. So does a line that turns so slowly that it stands for other
 /// slow forms. Without passes, a pattern of one undulation alone does.
@@ -62,7 +68,7 @@ bool goes_with_axis(const TermValue& term, const std::vector<Pass>& passes) {
     const auto order = order_in(term, pass);
     const double turned = static_cast<double>(pass.end - pass.begin) / pass.readings_per_revolution;
     const bool line = term.effect || term.pattern.kind == Pattern::Kind::line;
-    const bool slow = line && order && *order * turned <= least_beats.value;
+    const bool slow = line && !is_round(term) && order && *order * turned <= least_beats.value;
     if (!order || (!slow && std::abs(*order - 1.0) * turned > least_beats.value)) return false;
     turns = true;
   }

@@ -63,6 +63,23 @@ TEST(SlipThatTurns, TurnsTheFormOfThePart) {
   }
 }
 
+// A waviness that is long is the same all round the part, and the axis is stated. One of nearly the
+// feed goes with the eccentricity: in 18 turns it loses 2.2 on it.
+TEST(LongWaviness, LeavesTheAxisKnown) {
+  for (const double wavelength_mm : {18.0, 12.0, 2.85}) {
+    Scenario scenario = turned_cylinder(3, 20.0, 0.001);
+    PlannedPass& pass = scenario.plan.passes[0];
+    pass.start_mm = 0.0, pass.end_mm = 45.0, pass.feed_mm_per_rev = 2.5;
+    scenario.effects = {
+        {"part.waviness", {{"amplitude_mm", 0.003}, {"wavelength_mm", wavelength_mm}}}};
+    const ProbeStream stream = simulate(scenario);
+    const Diagnosis diagnosis = diagnosed_cylinder(stream);
+    EXPECT_EQ(diagnosis.findings.size(), 1U) << wavelength_mm;
+    EXPECT_EQ(why_axis_unknown(stream, diagnosis).has_value(), wavelength_mm < 3.0);
+    if (wavelength_mm > 3.0) expect_axis_after(scenario, 0.0, 0.0, 45.0, diagnosis);
+  }
+}
+
 // The readings right at a step are predicted across it, and one large innovation of the noise looks
 // the same there. A slip also shows in what follows: 240 readings a side with ρ = 0.8 tell as much
 // as 27 independent ones, so that a step of 5 σ is one of 18 standard errors.
