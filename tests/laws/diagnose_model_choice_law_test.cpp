@@ -86,7 +86,7 @@ TEST(LastingSlip, IsNoBendOfAPart) {
 }
 
 // In two passes of two turns a barrel, a bend and a play of the slide hide each other: step by step
-// all three were found in 7 of these 16 streams, and nothing in one, 11 µm off. All causes at once
+// all three were found in 6 of these 16 streams, and nothing in one, 11 µm off. All causes at once
 // leave the noise alone, and what is not needed goes.
 TEST(CausesThatHideEachOther, AreWhatIsLeftOfAll) {
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
