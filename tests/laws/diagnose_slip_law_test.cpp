@@ -42,9 +42,8 @@ TEST_P(DiagnosedSlip, IsNoNoiseHoweverLarge) {
   }
 }
 
-// A part that slips by 4 deg turns its seven lobes by 28 deg of their own, and where it lies with
-// them. Before, their difference was vibrations and patterns, and with a cone's noise an encoder 5
-// deg off, with the axis 18 µm off at U 4 µm.
+// A part that slips by 4 deg turns its seven lobes by 28 deg of their own, and its axis with them.
+// Before, the difference was vibrations and patterns without a cause in 8 of these 11 streams.
 TEST(SlipThatTurns, TurnsTheFormOfThePart) {
   for (std::uint64_t seed = 2; seed <= 12; ++seed) {
     Scenario scenario = turned_cylinder(seed, 30.0, 0.0015);
