@@ -36,6 +36,8 @@ struct TermContext {
   double tan_half_angle = 0.0;             ///< signed like the surface's
   bool bore = false, rear = false;         ///< inside a bore; at the smaller X
   bool face = false;                       ///< probed along Z
+  /// Whether the surface is that of the readings, which a play has turned, and not of the part.
+  bool as_read = false;
 
   std::size_t size() const { return c_rad.size(); }
 };

@@ -68,16 +68,41 @@ double lag(const TermContext& at, double T, std::size_t i) {
   return turning - at.velocity_mm_per_s[i] * at.dx_dz[i];
 }
 
+struct Swing {
+  double mm, ahead_rad;  ///< ahead of what is read
+};
+
+// X as a play b leaves a harmonic of `read_mm` of it, by Newton's method on k = b/2E (Eq. 53b).
+Swing swing_behind_play(double read_mm, double play_mm) {
+  constexpr int rounds = 5;
+  const double share = 2.0 * read_mm / play_mm;  // |N(k)| = share · k
+  double k = std::min(0.9, 1.0 / share);
+  double real = 1.0, imaginary = 0.0;
+  for (int round = 0; round <= rounds; ++round) {
+    const double c = 1.0 - 2.0 * k, root = std::sqrt(std::max(0.0, 1.0 - c * c));
+    real = (0.5 * pi + std::asin(c) + c * root) / pi, imaginary = (1.0 - c * c) / pi;
+    if (round == rounds) break;
+    const double size = std::hypot(real, imaginary);
+    const double slope = -4.0 * (real * root - imaginary * c) / (pi * size) - share;
+    k = std::clamp(k - (size - share * k) / slope, 1e-9, 0.999);
+  }
+  return {0.5 * play_mm / k, std::atan2(imaginary, real)};
+}
+
 // Reversed, X goes back by the play b before the reading follows; until then the reading does not
 // change. X is nearly E cos ψ + p ψ, ψ running with the spindle and p what the feed adds: it grows
 // from ψ = −π − a to a and falls from a to π − a, sin a = p/E (Eq. 53a).
 double hysteresis(const TermContext& at, double play_mm, std::size_t i) {
   const double turning = std::abs(at.speed_rad_per_s[i]);
   const double advancing = at.velocity_mm_per_s[i] * at.dx_dz[i];
-  const double swing = std::hypot(at.dx_dc[i], at.d2x_dc2[i]);
+  double swing = std::hypot(at.dx_dc[i], at.d2x_dc2[i]);
   if (turning * swing <= std::abs(advancing)) return -0.5 * sign(advancing);
-  const double per_rad = advancing / turning, extreme = std::asin(per_rad / swing);
   double psi = std::atan2(-sign(at.speed_rad_per_s[i]) * at.dx_dc[i], -at.d2x_dc2[i]);
+  if (at.as_read && play_mm > 0.0) {
+    const Swing moved = swing_behind_play(swing, play_mm);
+    swing = moved.mm, psi += moved.ahead_rad;
+  }
+  const double per_rad = advancing / turning, extreme = std::asin(per_rad / swing);
   if (psi >= pi - extreme) psi -= two_pi;
   if (psi < -pi - extreme) psi += two_pi;
   const bool grows = psi < extreme, outward = per_rad >= 0.0;

@@ -131,7 +131,9 @@ class Predictor {
   LinearisationPoint point_of(const CandidateMeasurement& plan) const {
     BaseKind base = problem_.point.base;
     base.axes = plan.clampings.back().axis + 1;
-    return linearise_at(plan.stream, plan.clampings, base, problem_.point.bore);
+    LinearisationPoint out = linearise_at(plan.stream, plan.clampings, base, problem_.point.bore);
+    out.as_read = problem_.point.as_read;
+    return out;
   }
 
   const Problem& problem_;

@@ -21,10 +21,12 @@ bool is_case_of(const Hypothesis& named, const Hypothesis& rival) {
          lobes->envelope == Harmonic::Envelope::growing && rival.shape.order == named.shape.order;
 }
 
-/// Lobes that are in phase with the eccentricity may be just what a bend of the sensor makes of it.
+/// Lobes that keep a phase with the eccentricity may be just what a bend of the sensor or a play
+/// makes of it.
 bool may_be_bend(const Hypothesis& lobes, const Hypothesis& bend) {
-  return lobes.effect && has_free_order(*lobes.effect) && bend.effect &&
-         bends_reading(bend.effect->term);
+  if (!lobes.effect || !has_free_order(*lobes.effect) || !bend.effect) return false;
+  const auto* response = std::get_if<Response>(&bend.effect->term);
+  return bends_reading(bend.effect->term) || (response && response->of == Response::Of::hysteresis);
 }
 
 }  // namespace

@@ -192,6 +192,7 @@ TermContext LinearisationPoint::context(const PointPart& part) const {
   at.height_mm = height_mm;
   at.tan_half_angle = tan_half_angle;
   at.bore = bore, at.rear = part.rear[0] != 0;
+  at.as_read = as_read;
   return at;
 }
 

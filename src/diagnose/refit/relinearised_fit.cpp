@@ -61,6 +61,8 @@ bool is_height(const Hypothesis& h) {
 /// Whether a term moves the part or the probe, so that what is known of both is of its size.
 bool moves(const Hypothesis& h) { return moves_probe(h) || is_step_at_once(h); }
 
+bool plays(const Hypothesis& h) { return is_linearised_at_its_size(h) && !turns(h); }
+
 /// Whether readings stay on their side of the axis without the terms: those of an absurd model do
 /// not.
 bool leaves_a_part(const ProbeStream& stream, const std::vector<double>& taken_mm) {
@@ -124,6 +126,7 @@ void RelinearisedFit::solve_about(const std::vector<double>& phi) {
   const Eigen::VectorXd found = coefficients_of_terms();
   effect_mm_ = contribution(problem_->point, terms_, span_of(found), first.threads);
   if (moved_) add(effect_mm_, turned_mm_);
+  if (!known_mm_.empty()) add(effect_mm_, known_mm_, -1.0);
   if (!beyond_mm_.empty()) add(effect_mm_, beyond_mm_);
 }
 
@@ -153,7 +156,6 @@ bool RelinearisedFit::is_far() const {
 std::vector<double> RelinearisedFit::taken_off_mm() const {
   std::vector<double> out = effect_mm_;
   if (moved_) add(out, turned_mm_, -1.0);
-  if (!known_mm_.empty()) add(out, known_mm_, -1.0);
   return out;
 }
 
@@ -180,8 +182,10 @@ std::vector<double> RelinearisedFit::residual_mm() const {
 
 LinearisationPoint RelinearisedFit::point_at(const ProbeStream& stream, const Place& place) const {
   const LinearisationPoint& first = ideal_.point;
-  return linearise_at(stream, place.after, first.base, first.bore, ideal_.problem.threads,
-                      place.before, place.height_mm);
+  LinearisationPoint out = linearise_at(stream, place.after, first.base, first.bore,
+                                        ideal_.problem.threads, place.before, place.height_mm);
+  out.as_read = std::ranges::none_of(terms_, plays);
+  return out;
 }
 
 /// About the extended surface, where the terms leave one. A play is where the eccentricity turns
@@ -191,7 +195,6 @@ void RelinearisedFit::relinearise(const Model& model) {
   const Problem& first = ideal_.problem;
   FitOptions bare = ideal_.fit_options;  // a place is wanted, not its uncertainty
   bare.influences.clear();
-  const auto plays = [](const Hypothesis& h) { return is_linearised_at_its_size(h) && !turns(h); };
   std::optional<Problem> about = first;
   for (int rounds = std::ranges::any_of(terms_, plays) ? rounds_of_play : 1; rounds > 0; --rounds) {
     const Joint near(*about, model.phi, terms_, terms_.size());

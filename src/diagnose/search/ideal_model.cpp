@@ -23,7 +23,10 @@ constexpr int harmonics_of_rounding = 8;  // the others have a fifteenth of its 
 LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double ball_mm,
                          int threads) {
   const std::vector<Clamping> clampings = clampings_of(fit, ball_mm);
-  return linearise_at(stream, clampings, base_of(stream, fit, clampings), fit.bore, threads);
+  LinearisationPoint out =
+      linearise_at(stream, clampings, base_of(stream, fit, clampings), fit.bore, threads);
+  out.as_read = true;
+  return out;
 }
 
 int threads_of(const DiagnoseOptions& options, const ProbeStream& stream) {
