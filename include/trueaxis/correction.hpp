@@ -38,6 +38,8 @@ struct Actuator {
       measured;  ///< from the held set-point to the position, replaces the second-order model
                  ///< when there (ascending frequency); delay_s and the hold are multiplied with it
 
+  /// Whether the measured phases, one after the other, go ahead of the set-point: no servo does.
+  bool leads() const;
   /// Position over set-point at a frequency ≥ 0 (e^{+iωt} convention): second order or measured
   /// response, delay, and the hold of the sampling: H = ω_n²/(ω_n² − ω² + 2iζω_nω) e^{−iωτ} sinc
   /// e^{−iωT/2} (Eq. 112).

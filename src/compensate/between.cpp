@@ -13,6 +13,7 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t most_pieces = 10000;
+constexpr double most_parts = 1e5;  // lengths over which the errors bend that are looked at
 constexpr int most_rounds = 50;
 
 }  // namespace
@@ -98,7 +99,7 @@ double BlockPath::deviation_mm(const Stretch& on, double of_interest_mm) const {
     return nominal_.distance_mm(tip, std::lerp(on.begin, on.end, s));
   };
   const double parts = parts_of(on.from, on.to, task_.bends);
-  const auto looks = 2 * static_cast<std::size_t>(std::ceil(std::clamp(parts, 2.0, 500.0)));
+  const auto looks = 2 * static_cast<std::size_t>(std::ceil(std::clamp(parts, 2.0, most_parts)));
   const bool is_even = parts <= 0.5 && !nominal_.is_arc();
   const double off_from_mm = off_nominal_mm(on.from_tip_mm, 0.0),
                off_to_mm = off_nominal_mm(on.to_tip_mm, 1.0);

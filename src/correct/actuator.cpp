@@ -14,6 +14,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr double most_lead_rad = 0.1;  // a measurement may be off by as much
+
 /// Measured response at a frequency: log gain and unwrapped phase linear between points; below the
 /// first point the phase runs to 0 at 0 Hz, beyond the last the gain stays and the phase goes on.
 Complex interpolated(const std::vector<ResponsePoint>& points, double frequency_hz) {
@@ -80,6 +82,15 @@ double Actuator::bandwidth_hz() const {
   return natural_frequency_hz * std::sqrt(b >= 0.0 ? b + root : 1.0 / (root - b));
 }
 
+bool Actuator::leads() const {
+  double unwrapped_rad = 0.0;
+  for (const ResponsePoint& point : measured) {
+    unwrapped_rad += std::remainder(point.phase_rad - unwrapped_rad, two_pi);
+    if (unwrapped_rad > most_lead_rad) return true;
+  }
+  return false;
+}
+
 void Actuator::validate() const {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   require(positive(stroke_mm), "stroke [mm]", stroke_mm, "> 0");
@@ -102,6 +113,8 @@ void Actuator::validate() const {
   }
   require(measured.empty() || previous_hz > 0.0, "last measured frequency [Hz]", previous_hz,
           "> 0");
+  require(!leads(), "measured phase [rad]", measured.empty() ? 0.0 : measured.back().phase_rad,
+          "a lag, which is negative");
 }
 
 }  // namespace trueaxis

@@ -29,7 +29,7 @@ std::vector<Effect> probe_geometry() {
        .term = ProbeLine{ProbeLine::Of::tilt},
        .formula = "line along (cos gamma, 0, sin gamma): gain sec gamma and a shear X sin gamma "
                   "in Z",
-       .parameters = {{"tilt", "rad", 1e-4, 2e-3, "gamma", "", 0.0, -0.1, 0.1}},
+       .parameters = {{"tilt", "rad", 1e-4, 2e-3, "gamma", "", 0.0, -0.0175, 0.0175}},
        .signature = "gain sec gamma, Z moved by X sin gamma",
        .consequence = "align the probe",
        .confounders = {"part.taper", "spindle.axial_fundamental", "slide.xz_parallelism"},

@@ -190,9 +190,9 @@ class Assessment {
   AxisLine section_axis(const Profiles& profiles) const {
     if (datum_.empty()) return {};
     const SectionModel& section = datum_.front();
-    const AssociatedCircle circle =
-        associate_circle(section.raw().at, profiles.datum_mm.front(),
-                         section.radius_known() ? section.radius_mm() : 0.0, options_.datum);
+    const AssociatedCircle circle = associate_circle(
+        section.raw().at, profiles.datum_mm.front(),
+        section.radius_known() ? section.radius_mm() : 0.0, options_.datum, section.shares());
     return {section.x_mm() + circle.x_mm, section.y_mm() + circle.y_mm, 0.0, 0.0};
   }
 
@@ -239,12 +239,26 @@ class Unresolved {
 /// which is 0 by its definition.
 constexpr double rounding = 1e-9;
 
-Estimate estimate_of(const NamedValue& value, const Spread& spread, bool unresolved) {
-  if (std::abs(value.value) < rounding && spread.u < rounding) return {0.0, 0.0, value.unit, ""};
-  if (!unresolved) return {value.value, spread.u, value.unit, ""};
-  return {.unit = value.unit,
-          .why_not = "no form beyond the noise",
-          .interval = std::array{0.0, std::max(spread.bound, value.value + 2.0 * spread.u)}};
+/// In σ/√N: a bend of the axis that the readings of a surface do not show. Its coefficient of P₂
+/// has u = σ √(10/N), and straightness 1.5 times that. The chain finds 3 u, thus 95 % of 4.65 u.
+constexpr double unseen_bend = 4.65 * 1.5 * 3.17;
+
+/// What may be there of a value although no draw of the surface has it, mm.
+double unseen_mm(const FormResult& result, const NamedValue& value) {
+  if (!result.surface || !value.name.starts_with("STR")) return 0.0;
+  return unseen_bend * result.surface->noise_mm /
+         std::sqrt(static_cast<double>(result.surface->readings));
+}
+
+Estimate estimate_of(const NamedValue& value, const Spread& spread, bool unresolved,
+                     double unseen) {
+  const bool nothing = std::abs(value.value) < rounding && spread.u < rounding;
+  if (nothing && unseen == 0.0) return {0.0, 0.0, value.unit, ""};
+  if (!nothing && !unresolved) return {value.value, spread.u, value.unit, ""};
+  return {
+      .unit = value.unit,
+      .why_not = "no form beyond the noise",
+      .interval = std::array{0.0, std::max({spread.bound, value.value + 2.0 * spread.u, unseen})}};
 }
 
 void hand_out(FormResult& result, const std::vector<NamedValue>& values,
@@ -257,8 +271,9 @@ void hand_out(FormResult& result, const std::vector<NamedValue>& values,
     auto& list = one.group == "section" ? result.sections[v / each].values
                                         : group_named(result, one.group).values;
     const bool bound = result.surface && unresolved.has(one, spread[v]);
-    list.push_back(
-        {one.name, one.reference, estimate_of(one, spread[v], bound), spread[v].bias, bound});
+    Estimate estimate = estimate_of(one, spread[v], bound, unseen_mm(result, one));
+    const bool is_bound = bound || estimate.interval.has_value();
+    list.push_back({one.name, one.reference, std::move(estimate), spread[v].bias, is_bound});
   }
 }
 

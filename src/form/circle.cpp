@@ -10,10 +10,10 @@ namespace trueaxis::form {
 namespace {
 
 AssociatedCircle limacon(std::span<const double> angle_rad, std::span<const double> deviation_mm,
-                         Criterion criterion) {
-  Exchange exchange(limacon_rows(angle_rad), criterion);
+                         double radius_mm, Criterion criterion, std::span<const double> shares) {
+  Exchange exchange(limacon_rows(angle_rad), criterion, shares);
   const Nearest nearest = exchange(deviation_mm);
-  return circle_near(exchange.off(deviation_mm, nearest), nearest, 0.0);
+  return circle_near(exchange.off(deviation_mm, nearest), nearest, radius_mm);
 }
 
 }  // namespace
@@ -37,9 +37,10 @@ Exchange::Rows limacon_rows(std::span<const double> angle_rad) {
 
 AssociatedCircle associate_circle(std::span<const double> angle_rad,
                                   std::span<const double> deviation_mm, double radius_mm,
-                                  Criterion criterion) {
+                                  Criterion criterion, std::span<const double> shares) {
   expects(deviation_mm.size() == angle_rad.size(), "a deviation for every angle");
-  if (radius_mm == 0.0) return limacon(angle_rad, deviation_mm, criterion);
+  if (radius_mm == 0.0 || (criterion == Criterion::gaussian && !shares.empty()))
+    return limacon(angle_rad, deviation_mm, radius_mm, criterion, shares);
   std::vector<Point3> points;
   for (std::size_t i = 0; i < angle_rad.size(); ++i) {
     const double r = radius_mm + deviation_mm[i];

@@ -19,10 +19,12 @@ struct AssociatedCircle {
 };
 
 /// The circle of a profile. A pole with a radius: that in the plane, by associate(). Without one,
-/// `radius_mm` = 0: the limaçon that a gauge's trace shows, Eq. 265.
+/// `radius_mm` = 0: the limaçon that a gauge's trace shows, Eq. 265. With
+/// `shares` of the circumference, least squares are along it (ISO 12181-1) and about a pole so near
+/// that the limaçon is the circle.
 AssociatedCircle associate_circle(std::span<const double> angle_rad,
                                   std::span<const double> deviation_mm, double radius_mm,
-                                  Criterion criterion);
+                                  Criterion criterion, std::span<const double> shares = {});
 
 /// The same of a limaçon that is so near to a pole with a radius (0: none) that it is the circle.
 AssociatedCircle circle_near(std::vector<double> off_mm, const Nearest& nearest, double radius_mm);

@@ -23,13 +23,17 @@ constexpr double good_part = 0.1;
 
 }  // namespace
 
-Exchange::Exchange(Rows rows, Criterion criterion)
+Exchange::Exchange(Rows rows, Criterion criterion, std::span<const double> weight)
     : rows_(std::make_shared<const Rows>(std::move(rows))), criterion_(criterion) {
   expects(rows_->rows() >= rows_->cols() && rows_->cols() > 0, "more readings than unknowns");
   const Eigen::Index p = rows_->cols();
   if (criterion_ == Criterion::gaussian) {
+    Rows weighed = *rows_;
+    for (std::size_t i = 0; i < weight.size(); ++i)
+      weighed.row(static_cast<Eigen::Index>(i)) *= weight[i];
+    const Rows normal = linear::transposed_product(weighed, *rows_);
     solver_ = std::make_shared<const Rows>(
-        linear::solve_normal(linear::gram(*rows_), Rows(rows_->transpose())).transpose());
+        linear::solve_normal(normal, Rows(weighed.transpose())).transpose());
     return;
   }
   // A zone has its half width as one unknown more, which is to be least; else it is the size.

@@ -39,7 +39,8 @@ class Exchange {
   };
 
   /// @param rows φ_k(i), a row a reading, the first column 1
-  Exchange(Rows rows, Criterion criterion);
+  /// @param weight of each in the sum of squares; empty: 1
+  Exchange(Rows rows, Criterion criterion, std::span<const double> weight = {});
 
   /// Least squares, which need no start.
   Nearest least_squares(std::span<const double> y) const;
@@ -53,7 +54,7 @@ class Exchange {
   void begin();
 
   /// Shared by copies, which only start elsewhere.
-  std::shared_ptr<const Rows> rows_, solver_;  ///< Φ, and Φ (ΦᵀΦ)⁻¹ of least squares
+  std::shared_ptr<const Rows> rows_, solver_;  ///< Φ, and WΦ (ΦᵀWΦ)⁻¹ of least squares
   Criterion criterion_;
   Eigen::VectorXd objective_;
   std::vector<Active> active_;

@@ -146,12 +146,13 @@ SectionModel::SectionModel(StationOfSurface station, bool radius_known, const Fo
 
 void SectionModel::associate_circles(bool all_references) {
   const Exchange::Rows rows = limacon_rows(raw().at);
+  shares_ = shares_of(raw(), longest_step_);
   for (const Criterion criterion : criteria_of(all_references)) {
-    near_.emplace_back(rows, criterion);
+    near_.emplace_back(rows, criterion, shares_);
     const Nearest nearest = near_.back()(profile_mm_);
     circles_.push_back(
         all_references
-            ? associate_circle(raw().at, profile_mm_, trace_.radius_mm(), criterion)
+            ? associate_circle(raw().at, profile_mm_, trace_.radius_mm(), criterion, shares_)
             : circle_near(near_.back().off(profile_mm_, nearest), nearest, trace_.radius_mm()));
   }
 }
@@ -171,10 +172,9 @@ void SectionModel::make_filter(const FormOptions& options) {
 }
 
 void SectionModel::make_slope(const FormOptions& options) {
-  const double longest = options.filter == ProfileFilter::none
-                             ? 0.1 * two_pi
-                             : longest_step(two_pi / options.high_upr);
-  slope_ = std::make_shared<Derivative>(raw(), longest);
+  longest_step_ = options.filter == ProfileFilter::none ? 0.1 * two_pi
+                                                        : longest_step(two_pi / options.high_upr);
+  slope_ = std::make_shared<Derivative>(raw(), longest_step_);
 }
 
 std::vector<double> SectionModel::filtered(std::span<const double> value_mm) const {
@@ -212,7 +212,10 @@ std::vector<NamedValue> SectionModel::values_of(const std::vector<std::vector<do
     values.push_back({"section", "RONt", about, high - low});
     values.push_back({"section", "RONp", about, std::max(0.0, high)});
     values.push_back({"section", "RONv", about, std::max(0.0, -low)});
-    values.push_back({"section", "RONq", about, root_mean_square(off)});
+    double squares = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < off.size(); ++i)
+      squares += shares_[i] * off[i] * off[i], all += shares_[i];
+    values.push_back({"section", "RONq", about, std::sqrt(squares / all)});
   }
   values.push_back({"section", "slope", "", largest_known((*slope_)(filtered_mm)), "mm/rad"});
   return values;

@@ -70,6 +70,8 @@ class SectionModel {
   /// The band of the filter of values at the places of `raw()`. Linear.
   std::vector<double> filtered(std::span<const double> value_mm) const;
 
+  /// The part of the circumference that each place of the trace stands for, rad.
+  const std::vector<double>& shares() const { return shares_; }
   /// The filtered profile of readings at the same angles, little changed.
   std::vector<double> changed(const SectionReadings& readings) const;
 
@@ -115,7 +117,8 @@ class SectionModel {
   std::optional<StationOfSurface> station_;
   std::shared_ptr<const LowPass> high_, low_;
   std::shared_ptr<const Derivative> slope_;
-  std::vector<double> profile_mm_;
+  double longest_step_ = 0.0;  ///< between readings that are not a gap, rad
+  std::vector<double> profile_mm_, shares_;
   std::vector<Order> orders_;
   std::vector<AssociatedCircle> circles_;  ///< of form_criteria, in the plane
   std::vector<Exchange> near_;             ///< the same of Eq. 265, at their optimum

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "measure/centre_step.hpp"
 #include "measure/column_checks.hpp"
@@ -43,6 +45,44 @@ double off_multiple(double length, double unit) {
   return std::abs(length / unit - times);
 }
 
+/// More is a face, or X and Z exchanged.
+constexpr double steepest = 2.0;
+
+/// Readings less a straight line along Z that may be a taper.
+std::vector<double> less_taper(const ProbeStream& stream) {
+  const auto count = static_cast<Eigen::Index>(stream.size());
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(count, 2);
+  for (Eigen::Index i = 0; i < count; ++i)
+    columns(i, 1) = stream.has_position() ? stream.position_mm[static_cast<std::size_t>(i)] : 0.0;
+  const Eigen::Map<const Eigen::VectorXd> reading(stream.reading_mm.data(), count);
+  constexpr double rounding = 1e-12;
+  const Eigen::VectorXd line = linear::least_squares(columns, Eigen::VectorXd(reading), rounding);
+  if (std::abs(line[1]) > steepest) return stream.reading_mm;
+  const Eigen::VectorXd left = reading - columns * line;
+  return {left.begin(), left.end()};
+}
+
+/// Sum of the squared steps from place to place round the part, if an angle is C times `unit`.
+double roughness(const ProbeStream& stream, std::span<const double> value_mm, double unit) {
+  std::vector<std::pair<double, double>> places;
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const double angle = stream.c_rad[i] * unit;
+    places.emplace_back(angle - two_pi * std::floor(angle / two_pi), value_mm[i]);
+  }
+  std::ranges::sort(places);
+  double sum = 0.0;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    sum += (places[i].second - places[i - 1].second) * (places[i].second - places[i - 1].second);
+  return sum;
+}
+
+/// Whether the readings round the part are rough as C says, and smooth if it is in degrees.
+bool is_smooth_in_degrees(const ProbeStream& stream) {
+  constexpr double much = 2.0;  // noise alone is as rough either way
+  const std::vector<double> value_mm = less_taper(stream);
+  return roughness(stream, value_mm, 1.0) > much * roughness(stream, value_mm, rad_per_deg);
+}
+
 /// C in radians under a header of degrees, and the other way round.
 void check_angles(const ProbeStream& stream, Troubles& troubles) {
   const auto [low, high] = range_of(stream.c_rad);
@@ -60,7 +100,7 @@ void check_angles(const ProbeStream& stream, Troubles& troubles) {
     troubles.add(
         fmt::format("C covers only {:.4g}°, and a section needs half a turn{}", as_said, hint));
   } else if (covered > 300.0 && off_multiple(covered, 360.0) < 1e-3 &&
-             off_multiple(covered, two_pi) > 1e-2) {
+             off_multiple(covered, two_pi) > 1e-2 && is_smooth_in_degrees(stream)) {
     troubles.add(
         fmt::format("C runs over {:.6g} rad, which is not a whole number of turns, while {:.0f} "
                     "degrees are: if it is in degrees, write C[deg]",
@@ -100,7 +140,8 @@ void expect_sections(const ProbeStream& stream) {
   check_common(stream, troubles);
   if (stream.indication == Indication::absolute) {
     const auto [low, high] = range_of(stream.reading_mm);
-    if (low * high <= 0.0 || high - low > 0.5 * std::max(std::abs(low), std::abs(high)))
+    const double form = range_of(less_taper(stream)).length();
+    if (low * high <= 0.0 || form > 0.5 * std::max(std::abs(low), std::abs(high)))
       troubles.add(fmt::format(
           "X_M from {:.6g} to {:.6g} mm is not a radius of a section: readings of a gauge need "
           "'# reading: relative' (--relative), with '# nominal_radius: R mm' if it is known",

@@ -20,6 +20,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int least_draws = 100;
+constexpr std::size_t least_angles = 8;     // of a section: a circle and some form
 constexpr double orders_over_cutoff = 1.5;  // the filter lets 21 % of these through
 constexpr std::size_t readings_an_order = 5;
 constexpr int fewest_degrees = 2, most_degrees = 10;
@@ -150,11 +151,10 @@ void SurfaceModel::make_grid() {
   const int stations = terms_.degrees + more_stations;
   for (const double t : station_places(stations)) add_station(middle_mm_ + half_mm_ * t, by_z);
   for (Station& station : stations_) station.orders = orders_at(station);
-  const double step = 2.0 * half_mm_ / (stations - 1);
-  for (const double z : z_mm_) {
-    const double at = std::floor((z - middle_mm_ + half_mm_) / step + 0.5);
-    ++stations_[static_cast<std::size_t>(std::clamp(at, 0.0, stations - 1.0))].readings;
-  }
+  for (const double z : z_mm_)
+    ++std::ranges::min_element(stations_, {}, [&](const Station& station) {
+        return std::abs(station.z_mm - z);
+      })->readings;
 }
 
 /// Even steps over −1 … 1, but that the nearest to the largest lobes of the mean is there: the
@@ -208,7 +208,8 @@ void SurfaceModel::add_station(double z_mm, std::span<const std::size_t> by_z) {
     });
     if (!in_gap) station.place.push_back(k);
   }
-  stations_.push_back(std::move(station));
+  // A spindle that stood still there has no section.
+  if (station.place.size() >= least_angles) stations_.push_back(std::move(station));
 }
 
 Eigen::Vector2d SurfaceModel::amplitudes(const VectorXd& f, int order,

@@ -50,7 +50,8 @@ using Engine = boost::random::mt19937_64;
 constexpr int first_unknown = 2, last_unknown = 10;
 /// The height of the highest of a profile of noise, over its standard deviation.
 constexpr double largest_of_noise = 5.0;
-constexpr double nothing_mm = 1e-9, confidence_of_bound = 0.95;
+/// A tenth of a nanometre: below is the rounding of an association, and no form.
+constexpr double nothing_mm = 1e-7, confidence_of_bound = 0.95;
 
 double sum_of_squares(std::span<const double> values) {
   double sum = 0.0;

@@ -114,7 +114,7 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections,
     towards_.emplace_back();
     for (Eigen::Index i = 0; i < rows.rows(); ++i)
       towards_.back().push_back({rows(i, 1), rows(i, 2)});
-    circle_fits_.emplace_back(rows, Criterion::gaussian);
+    circle_fits_.emplace_back(rows, Criterion::gaussian, section.shares());
   }
   middle_mm_ = 0.5 * (low + high);
   half_mm_ = 0.5 * (high - low);

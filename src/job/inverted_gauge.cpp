@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
-#include "base/angle.hpp"
 #include "job/doubts.hpp"
 #include "trueaxis/units.hpp"
 
@@ -11,31 +11,46 @@ namespace trueaxis {
 namespace {
 
 constexpr double matches = 3.0;       // u: of 1000 that are right 3 are farther
-constexpr double of_amplitude = 0.1;  // of a radius whose ball is not stated
-constexpr double of_phase = rad_per_deg;
+constexpr double seen = 5.0;          // u: what is nearer to nothing may be noise
+constexpr double of_amplitude = 0.1;  // of the wave: a ball that is not stated
+constexpr double of_phase = 0.05;     // of the wave, across it: 1.4° of an axis
 
 /// What the part off its axis leaves if the sign of the gauge is wrong: the axis comes out
-/// opposite, where the circle makes the same wave of two undulations with the other sign.
+/// opposite, where the circle makes the same wave of two undulations with the other sign. In one
+/// reading, and the same a quarter of a wave on.
 struct SecondWave {
-  double amplitude_mm = 0.0, phase_rad = 0.0;
+  double along_mm = 0.0, across_mm = 0.0;
 };
 
-SecondWave wave_of_inverted(const FitResult& fit) {
-  const double low = fit.position_min_mm, high = fit.position_max_mm, middle = 0.5 * (low + high);
-  const auto squared = [&](double z) {
-    const auto [x, y] = fit.axis.axis.at(z);
-    return x * x + y * y;
-  };
-  const auto [x, y] = fit.axis.axis.at(middle);
-  const double mean = (squared(low) + 4.0 * squared(middle) + squared(high)) / 6.0;
+SecondWave wave_of_inverted(const FitResult& fit, double c_rad, double z_mm) {
+  const auto [x, y] = fit.axis.axis.at(z_mm);
   const Revolved& shape = fit.shape;
-  const double radius = shape.radius_mm + shape.tan_half_angle * (middle - shape.axis.z_ref_mm);
-  return {mean / (2.0 * radius), 2.0 * std::atan2(y, x) + 0.5 * two_pi};
+  const double radius = shape.radius_mm + shape.tan_half_angle * (z_mm - shape.axis.z_ref_mm);
+  const double amplitude = -(x * x + y * y) / (2.0 * radius);
+  const double angle = 2.0 * (c_rad - std::atan2(y, x));
+  return {amplitude * std::cos(angle), amplitude * std::sin(angle)};
 }
 
-const FitParameter* named(const Finding& finding, const char* name) {
-  const auto found = std::ranges::find(finding.parameters, name, &FitParameter::name);
-  return found == finding.parameters.end() ? nullptr : &*found;
+/// Whether the ideal fit leaves that wave, and nothing across it.
+bool leaves_wave(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  const std::vector<double>& left_mm = diagnosis.residual_before_mm;
+  if (left_mm.size() != stream.size()) return false;
+  std::vector<bool> masked(stream.size(), false);
+  for (const Rejected& one : diagnosis.noise.masked)
+    if (one.row >= 1 && one.row <= masked.size()) masked[one.row - 1] = true;
+  double along2 = 0.0, across2 = 0.0, along = 0.0, across = 0.0;
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    if (masked[i] || !std::isfinite(left_mm[i])) continue;
+    const SecondWave wave = wave_of_inverted(diagnosis.baseline, stream.c_rad[i],
+                                             stream.has_position() ? stream.position_mm[i] : 0.0);
+    along2 += wave.along_mm * wave.along_mm, across2 += wave.across_mm * wave.across_mm;
+    along += wave.along_mm * left_mm[i], across += wave.across_mm * left_mm[i];
+  }
+  if (!(along2 > 0.0 && across2 > 0.0)) return false;
+  const double share = along / along2, beside = across / across2;
+  const double u = diagnosis.noise.sigma_mm / std::sqrt(std::min(along2, across2));
+  return share > seen * u && std::abs(share - 1.0) <= matches * u + of_amplitude &&
+         std::abs(beside) <= matches * u + of_phase;
 }
 
 std::optional<Reason> inverted_of(const ProbeStream& stream, const Diagnosis& diagnosis) {
@@ -44,31 +59,18 @@ std::optional<Reason> inverted_of(const ProbeStream& stream, const Diagnosis& di
   const bool rear = stream.indication == Indication::absolute && sum < 0.0;
   if (stream.kind == StreamKind::face || rear || !fit.axis_known() || fit.set_ups.size() > 1)
     return {};
-  const SecondWave expected = wave_of_inverted(fit);
-  for (const Finding& finding : diagnosis.findings) {
-    const FitParameter *order = named(finding, "order"), *amplitude = named(finding, "amplitude"),
-                       *phase = named(finding, "phase");
-    if (order == nullptr || amplitude == nullptr || phase == nullptr) continue;
-    const Estimate &a = amplitude->estimate, &p = phase->estimate;
-    const double unit = p.unit == "rad" ? 1.0 : rad_per_deg;
-    const double off_rad = p.value * unit - expected.phase_rad;
-    const double turned_rad = off_rad - two_pi * std::round(off_rad / two_pi);
-    if (std::abs(order->estimate.value - 2.0) < 1e-3 &&
-        std::abs(a.value - expected.amplitude_mm) <=
-            matches * a.u + of_amplitude * expected.amplitude_mm &&
-        std::abs(turned_rad) <= matches * p.u * unit + of_phase)
-      return Reason{ReasonCode::column_reversed,
-                    {},
-                    {},
-                    {{"column", "X_M"}, {"file", stream.source}},
-                    {},
-                    {{ReasonCode::turn_sign, {}, {}, {{"column", "X_M"}}}}};
-  }
-  return {};
+  if (!leaves_wave(stream, diagnosis)) return {};
+  return Reason{ReasonCode::column_reversed,
+                {},
+                {},
+                {{"column", "X_M"}, {"file", stream.source}},
+                {},
+                {{ReasonCode::turn_sign, {}, {}, {{"column", "X_M"}}}}};
 }
 
 constexpr Threshold of_wave[] = {
-    {"two_undulations", matches, "of its u", "of 1000 that match 3 are farther"}};
+    {"two_undulations", matches, "of its u", "of 1000 that match 3 are farther"},
+    {"seen", seen, "of its u", "what is nearer to nothing may be noise"}};
 
 }  // namespace
 

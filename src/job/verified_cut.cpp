@@ -93,7 +93,9 @@ VerifiedCut verified_cut(const JobResult& result, const ProbeStream& probed_agai
   options.fit = options_of_cut(result.job);
   const ProbeStream stream = corrected_by_known(probed_again, options.fit);
   const Diagnosis diagnosis = diagnose(stream, options);
-  if (!diagnosis.extended.axis_known() || why_axis_unknown(stream, diagnosis))
+  // An inverted servo leaves what an inverted gauge does; the response that is seen says so.
+  const auto unknown = why_axis_unknown(stream, diagnosis);
+  if (!diagnosis.extended.axis_known() || (unknown && unknown->code != ReasonCode::column_reversed))
     throw Refusal("the readings do not tell the axis of the cut: probe the cut seat again");
   std::set<std::string> of_cut;
   add_causes(diagnosis, of_cut);

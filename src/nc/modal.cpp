@@ -53,7 +53,11 @@ std::string_view why_not_g(int g_tenths) {
   return "";
 }
 
-std::string_view why_not_m(int m) { return m == 97 || m == 98 || m == 198 ? macro : ""; }
+std::string_view why_not_m(int m) {
+  if (m == 61) return "says which tool is in the spindle: write T and M6";
+  if (m >= 70 && m <= 73) return "may save or restore G codes: write the codes themselves";
+  return m == 97 || m == 98 || m == 198 ? macro : "";
+}
 
 bool stops(int m) { return m <= 2 || m == 30 || m == 60 || m == 99; }
 bool starts(int m) { return m == 3 || m == 4 || m == 7 || m == 8; }

@@ -89,9 +89,9 @@ class Reader {
     if (selected_ > 0 && !options_.tools.empty() && !has_length(selected_))
       complain(*change, "tool " + std::to_string(selected_) +
                             " has no length in [tools] of the machine: add it there");
-    if (selected_ != state_.tool && state_.length != LengthOffset::none) {
-      forget(length_axes(state_, state_), "the tool's change");
-    }
+    const bool of_tip = options_.mode == PositionMode::tip;
+    if (selected_ != state_.tool && (of_tip || state_.length != LengthOffset::none))
+      forget(of_tip ? linear_axes : length_axes(state_, state_), "the tool's change");
     if (selected_ != state_.tool) continues_ = false;
     state_.tool = selected_;
   }

@@ -208,8 +208,11 @@ class Writer {
 
   /// Words that the block puts into force and that its pieces need before it.
   void repeat_words(const Line& line, const Move& move) {
+    const bool has_p = std::ranges::any_of(words_of(line), [](const Word& word) {
+      return word.letter == 'M' || (word.letter == 'G' && word.number == 64.0);
+    });
     for (const Word& word : words_of(line)) {
-      if (is_one_of(word.letter, "NOXYZABCIJKPQR")) continue;
+      if (is_one_of(word.letter, has_p ? "NOXYZABCIJKR" : "NOXYZABCIJKPQR")) continue;
       if (word.letter == 'F' && move.modal.feed_mode == FeedMode::inverse_time) continue;
       if (word.letter == 'M' && stops(static_cast<int>(word.number))) continue;
       separate(line);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spindle/joint_estimate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -180,28 +182,11 @@ std::vector<OrderSolution> separate(const Layout& layout, std::span<const Synchr
 
 namespace {
 
-constexpr int second_order_rounds = 4;
+constexpr int most_rounds_of_second_order = 40;
+constexpr double settled = 1e-3;         // of the largest u of an amplitude, from round to round
 constexpr double outlying = 8.0;         // robust σ: no noise, a chip
 constexpr double least_sigma_mm = 1e-6;  // below it rounding is not Gaussian
 constexpr double contradiction = 1.5;    // χ²/ν from which sensors and set-ups disagree
-
-/// Values less the median of those at about the same angle: a chip that has moved the mean of its
-/// angle does not make its neighbours of other turns look like chips.
-std::vector<double> less_usual(std::span<const double> c_rad, std::span<const double> value,
-                               double per_turn) {
-  const auto places = static_cast<std::size_t>(std::max(1.0, std::round(per_turn)));
-  std::vector<std::vector<std::size_t>> at(places);
-  for (std::size_t i = 0; i < value.size(); ++i) at[place_in_turn(c_rad[i], places)].push_back(i);
-  std::vector<double> out(value.begin(), value.end());
-  for (const std::vector<std::size_t>& rows : at) {
-    if (rows.empty()) continue;
-    std::vector<double> here;
-    for (const std::size_t i : rows) here.push_back(value[i]);
-    const double usual = median(std::move(here));
-    for (const std::size_t i : rows) out[i] -= usual;
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -217,9 +202,33 @@ JointEstimate::JointEstimate(std::vector<RunReadings> runs, const SpindleOptions
   leave_outliers_out();
   solve();
   for (const SynchronousPart& part : parts_) linear_.push_back(part.harmonics);
-  for (int round = 0; round < second_order_rounds && has_radius(); ++round) {
+  correct_until_settled();
+}
+
+/// A part e off its axis turns its lobes of order n by n e/R at most. Each round corrects by what
+/// the one before has found of them, which settles up to 1 rad.
+void JointEstimate::correct_until_settled() {
+  if (!has_radius()) return;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const double off_mm = std::abs(eccentricity(r)), radius_mm = runs_[r].radius_mm;
+    const double orders = std::floor(radius_mm / off_mm);
+    if (orders >= order_max_) continue;
+    throw InputError(runs_[r].stream,
+                     fmt::format("the part is {:.3g} mm off the axis at a radius of {:.4g} mm, "
+                                 "which shows orders up to {:.0f}: centre the part, or ask for no "
+                                 "higher ones (--orders)",
+                                 off_mm, radius_mm, orders));
+  }
+  for (int round = 0; round < most_rounds_of_second_order; ++round) {
+    const std::vector<OrderSolution> before = orders_;
     correct();
     solve();
+    double largest = 0.0, u = least_sigma_mm;
+    for (std::size_t k = 0; k < orders_.size(); ++k) {
+      largest = std::max(largest, (orders_[k].guessed - before[k].guessed).cwiseAbs().maxCoeff());
+      u = std::max(u, orders_[k].u_mm.maxCoeff());
+    }
+    if (largest <= settled * u) return;
   }
 }
 

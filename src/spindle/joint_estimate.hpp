@@ -85,6 +85,7 @@ class JointEstimate {
   void leave_outliers_out();
   void solve();
   void correct();
+  void correct_until_settled();
   Series guessed(Eigen::Index unknown) const;
   double remainder(const Series& form, const Series& along) const;
 

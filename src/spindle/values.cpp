@@ -246,4 +246,20 @@ std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const do
   return out;
 }
 
+std::vector<double> less_usual(std::span<const double> c_rad, std::span<const double> value,
+                               double per_turn) {
+  const auto places = static_cast<std::size_t>(std::max(1.0, std::round(per_turn)));
+  std::vector<std::vector<std::size_t>> at(places);
+  for (std::size_t i = 0; i < value.size(); ++i) at[place_in_turn(c_rad[i], places)].push_back(i);
+  std::vector<double> out(value.begin(), value.end());
+  for (const std::vector<std::size_t>& rows : at) {
+    if (rows.empty()) continue;
+    std::vector<double> here;
+    for (const std::size_t i : rows) here.push_back(value[i]);
+    const double usual = median(std::move(here));
+    for (const std::size_t i : rows) out[i] -= usual;
+  }
+  return out;
+}
+
 }  // namespace trueaxis

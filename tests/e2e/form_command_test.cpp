@@ -225,5 +225,36 @@ TEST_F(FormCommand, RefusesWhatTheReadingsDoNotCarry) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "r.json"));
 }
 
+// 57.296 turns are 360 rad, and a cone of 45° is from 20 to 57 mm: both are what they say.
+TEST_F(FormCommand, TakesWhatLooksLikeAMistakeAndIsNone) {
+  std::string turns = "# x_convention: radius\nX_M[mm],C[rad],Z[mm]\n", cone = turns;
+  for (int i = 0; i < 2063; ++i) {
+    const double c_rad = two_pi * i / 36.0, z_mm = c_rad / two_pi;
+    const double off_mm = 0.05 * std::cos(c_rad) + 0.002 * std::cos(2.0 * c_rad);
+    turns += std::to_string(20.0 + off_mm) + "," + std::to_string(c_rad) + "," +
+             std::to_string(z_mm) + "\n";
+    cone += std::to_string(20.0 + 0.7 * z_mm + off_mm) + "," + std::to_string(1.003 * c_rad) + "," +
+            std::to_string(z_mm) + "\n";
+  }
+  write("turns.csv", turns), write("cone.csv", cone);
+  for (const char* name : {"turns.csv", "cone.csv"}) {
+    const CommandStreams done = command(std::string("form ") + name + " --upr 1-5");
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+  }
+}
+
+// A spindle that stands still before the helix ended with a bug: no section is there.
+TEST_F(FormCommand, AStandstillBeforeTheHelixIsNoSection) {
+  std::string text = "# x_convention: radius\nX_M[mm],C[rad],Z[mm]\n";
+  for (int i = 0; i < 1600; ++i) {
+    const double c_rad = i < 400 ? 0.0 : two_pi * (i - 400) / 30.0, z_mm = c_rad / two_pi;
+    text += std::to_string(20.0 + 0.004 * std::cos(3.0 * c_rad)) + "," + std::to_string(c_rad) +
+            "," + std::to_string(z_mm) + "\n";
+  }
+  write("stands.csv", text);
+  const CommandStreams done = command("form stands.csv --upr 1-4");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

@@ -77,5 +77,16 @@ TEST_F(InvertedGauge, AnOvalPartIsNotTakenForIt) {
   }
 }
 
+// Whatever the diagnosis takes the wave for: 0.3 mm off, two undulations of 2.25 µm were a sensor
+// that bends, and the table that was a GO doubled the error.
+TEST_F(InvertedGauge, IsRefusedWhateverTheWaveIsCalled) {
+  probe("cylinder", 0.3);
+  EXPECT_EQ(command("run part.csv -o alone --surface cylinder").exit_code, 0);
+  invert();
+  const CommandStreams done = command("run part.csv -o inverted --surface cylinder");
+  EXPECT_EQ(done.exit_code, 1) << done.out;
+  EXPECT_TRUE(contains(done.out, "runs in the opposite direction")) << done.out;
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

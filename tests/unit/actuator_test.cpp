@@ -132,5 +132,16 @@ TEST(Actuator, ValidationNamesQuantityValueAndLimit) {
             "actuator: measured frequency [Hz] is 10, must be >= 0 and above the one before");
 }
 
+// A phase with the wrong sign leads, which no servo does; one that is written a turn on does not.
+TEST(Actuator, AMeasuredLeadIsRefused) {
+  Actuator actuator;
+  actuator.measured = {{10.0, 1.0, 0.063}, {100.0, 1.0, 0.63}};
+  EXPECT_TRUE(actuator.leads());
+  EXPECT_THROW(actuator.validate(), ContractViolation);
+  actuator.measured = {{10.0, 1.0, -0.063}, {100.0, 1.0, -2.0}, {200.0, 1.0, 2.0 * pi - 4.0}};
+  EXPECT_FALSE(actuator.leads());
+  EXPECT_NO_THROW(actuator.validate());
+}
+
 }  // namespace
 }  // namespace trueaxis

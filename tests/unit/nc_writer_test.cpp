@@ -115,6 +115,12 @@ TEST(NcWriter, PiecesAreLinesOfAxisWords) {
             "G0 X0 Y0 Z0 A0 C0\nG90 G1 F50 S100 M3 X2.0000\nN20 G90 G1 X4 F50 S100 M3 M0\n");
 }
 
+// G64 without its P is another path; M3 without it another spindle.
+TEST(NcWriter, PiecesKeepThePOfTheirCode) {
+  const std::string written = split("G1 X0 Y0 Z0 A0 C0\nG64 P0.01 G1 X2 F500\n", 2);
+  EXPECT_NE(written.find("G64 P0.01 G1 F500 X1"), std::string::npos) << written;
+}
+
 TEST(NcWriter, PiecesUnderInverseTimeShareTheTime) {
   EXPECT_EQ(split("G93\nG1 X0 Y0 Z0 A0 C0 F2\nN20 X3 F2.5\n", 3),
             "G93\nG1 X0 Y0 Z0 A0 C0 F2\nX1.0000 F7.5\nX2.0000 F7.5\nN20 X3 F7.5\n");

@@ -246,6 +246,10 @@ Actuator read_actuator(TomlTable table) {
   }
   if (!a.measured.empty() && a.measured.back().frequency_hz == 0.0)
     table.complain("response", "has one point at 0 Hz: add measured frequencies above it");
+  if (a.leads())
+    table.complain("response",
+                   "has a phase that leads the set-point, which no servo does: a lag is "
+                   "negative");
   return a;
 }
 
