@@ -107,8 +107,10 @@ double datum_error(const DatumErrors& datums, std::string_view name);
 /// A datum surface associated with points of it.
 struct ProbedDatum {
   std::array<double, 3> errors{};  ///< E_kk in mm, then its two angles in rad, as they are named
-  Covariance covariance;           ///< of them; NaN: not determined
-  double rms_mm = 0.0;             ///< of the points about the plane
+  /// Of them; NaN: not determined. Widened so that 2 u hold 95 % of errors although σ comes from
+  /// few points (JCGM 100, G.3).
+  Covariance covariance;
+  double rms_mm = 0.0;  ///< of the points about the plane
 };
 
 /// The plane `k` (0, 1, 2: YZ, ZX, XY) through points of the design frame, least squares along its

@@ -114,5 +114,14 @@ TEST(AnglesAlike, EvenAnglesAndNearlyEvenOnes) {
   EXPECT_EQ(at(36.7, 30), std::nullopt);
 }
 
+// 500 readings of a spindle that stands still before it turns are one angle, not three that repeat.
+TEST(AnglesAlike, AStandstillIsOneAngle) {
+  ProbeStream stream;
+  for (int i = 0; i < 500; ++i) stream.c_rad.push_back(1.0);
+  for (int i = 0; i <= 130; ++i) stream.c_rad.push_back(1.0 + two_pi * i / 130.3);
+  stream.reading_mm.assign(stream.c_rad.size(), 0.0);
+  EXPECT_EQ(angles_alike(stream), std::nullopt);
+}
+
 }  // namespace
 }  // namespace trueaxis
