@@ -31,24 +31,25 @@ SecondWave wave_of_inverted(const FitResult& fit, double c_rad, double z_mm) {
   return {amplitude * std::cos(angle), amplitude * std::sin(angle)};
 }
 
-/// Whether the ideal fit leaves that wave, and nothing across it.
+/// Whether the ideal fit leaves that wave, and nothing across it. After a slip it leaves much else.
 bool leaves_wave(const ProbeStream& stream, const Diagnosis& diagnosis) {
   const std::vector<double>& left_mm = diagnosis.residual_before_mm;
-  if (left_mm.size() != stream.size()) return false;
+  if (left_mm.size() != stream.size() || diagnosis.slip()) return false;
   std::vector<bool> masked(stream.size(), false);
   for (const Rejected& one : diagnosis.noise.masked)
     if (one.row >= 1 && one.row <= masked.size()) masked[one.row - 1] = true;
-  double along2 = 0.0, across2 = 0.0, along = 0.0, across = 0.0;
+  double along2 = 0.0, across2 = 0.0, along = 0.0, across = 0.0, left2 = 0.0, count = 0.0;
   for (std::size_t i = 0; i < stream.size(); ++i) {
     if (masked[i] || !std::isfinite(left_mm[i])) continue;
     const SecondWave wave = wave_of_inverted(diagnosis.baseline, stream.c_rad[i],
                                              stream.has_position() ? stream.position_mm[i] : 0.0);
     along2 += wave.along_mm * wave.along_mm, across2 += wave.across_mm * wave.across_mm;
     along += wave.along_mm * left_mm[i], across += wave.across_mm * left_mm[i];
+    left2 += left_mm[i] * left_mm[i], count += 1.0;
   }
   if (!(along2 > 0.0 && across2 > 0.0)) return false;
   const double share = along / along2, beside = across / across2;
-  const double u = diagnosis.noise.sigma_mm / std::sqrt(std::min(along2, across2));
+  const double u = std::sqrt(left2 / count / std::min(along2, across2));
   return share > seen * u && std::abs(share - 1.0) <= matches * u + of_amplitude &&
          std::abs(beside) <= matches * u + of_phase;
 }
