@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effect/entries.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::entries {
 
@@ -29,7 +30,7 @@ std::vector<Effect> probe_geometry() {
        .term = ProbeLine{ProbeLine::Of::tilt},
        .formula = "line along (cos gamma, 0, sin gamma): gain sec gamma and a shear X sin gamma "
                   "in Z",
-       .parameters = {{"tilt", "rad", 1e-4, 2e-3, "gamma", "", 0.0, -0.0175, 0.0175}},
+       .parameters = {{"tilt", "rad", 1e-4, 2e-3, "gamma", "", 0.0, -rad_per_deg, rad_per_deg}},
        .signature = "gain sec gamma, Z moved by X sin gamma",
        .consequence = "align the probe",
        .confounders = {"part.taper", "spindle.axial_fundamental", "slide.xz_parallelism"},
