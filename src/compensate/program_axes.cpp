@@ -34,6 +34,7 @@ nc::ReadOptions ProgramAxes::read_options(std::optional<double> arc_tolerance_mm
     options.work_offsets[i] = machine_.work_offsets[i].has_value() || (none && i == 0);
   for (std::size_t i = 0; i < work_offset_count; ++i) options.zeros[i] = offsets_[i].zero;
   for (const auto& [number, length] : machine_.tool_lengths_mm) options.tools.push_back(number);
+  if (!options.tools.empty() && machine_.tool.length_mm != 0.0) options.tools.push_back(0);
   options.start = machine_.start;
   options.arc_tolerance_mm = arc_tolerance_mm;
   return options;

@@ -19,14 +19,14 @@ std::string_view template_of(ReasonCode code) {
   static constexpr Template in_order_of_codes[] = {
       {no_target, "axis identified; no target to correct"},
       {coaxiality_expected,
-       "coaxiality at most {at_most:um:two} µm with {parts}, {without:um:two} µm without it"},
+       "coaxiality at most {at_most:um:up} µm with {parts}, {without:um:two} µm without it"},
       {run_out_expected,
-       "axial run-out at most {at_most:um:two} µm with {parts}, {without:um:two} µm without it"},
+       "axial run-out at most {at_most:um:up} µm with {parts}, {without:um:two} µm without it"},
       {with_the_table, "the table (95 % confidence)"},
       {with_files, "{files} (worst: {worst}, 95 % confidence)"},
       {tolerance_kept, "{parts}, tolerance {tolerance:um:.9g} µm"},
       {tolerance_exceeded,
-       "{@tolerance_kept}, and at least {at_least:um:two} µm<; {file_that_adds}, as its control "
+       "{@tolerance_kept}, and at least {at_least:um:down} µm<; {file_that_adds}, as its control "
        "reads it, adds {by_file:um:two} µm of this><; {remedies}>"},
       {tolerance_not_proven,
        "{@tolerance_kept}<; {file_that_adds}, as its control reads it, adds {by_file:um:two} µm of "
@@ -291,7 +291,7 @@ std::string_view template_of(ReasonCode code) {
       {at_no_speed, "at no speed"},
       {set_surface, "use --surface {surface} if it is one"},
       {program_expected,
-       "tip off by at most {at_most:um:two} µm with the new program (95 % confidence), "
+       "tip off by at most {at_most:um:up} µm with the new program (95 % confidence), "
        "{without:um:two} µm on its path without it"},
       {no_program, "errors of the machine identified; no program to compensate"},
       {errors_not_found, "the errors were not found: {message}"},

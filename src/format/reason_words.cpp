@@ -11,14 +11,17 @@
 
 #include "base/number.hpp"
 #include "base/text.hpp"
+#include "format/text_layout.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
-/// "1.25" of 1.2543 and ".3g"; two digits (`two`), one decimal below 10 (`one`).
+/// "1.25" of 1.2543 and ".3g"; two digits (`two`), of a bound (`up`, `down`), one decimal below 10
+/// (`one`).
 std::string shown(double value, std::string_view how) {
+  if (how == "up" || how == "down") return layout::bound(value, how == "up");
   if (how == "two") return fmt::format("{:.{}f}", value, decimals_of(value, 0));
   if (how == "one") return fmt::format("{:.{}f}", value, value < 10.0 ? 1 : 0);
   return without_exponent(fmt::format(fmt::runtime("{:" + std::string(how) + "}"), value), value);

@@ -52,16 +52,18 @@ std::string um(double length_mm) {
   return fmt::format("{:.3g} µm", length_mm / mm_per_um);
 }
 
+std::string bound(double value, bool up) {
+  const int decimals = decimals_of(value, 0);
+  const double digits = value * std::pow(10.0, decimals), rounding = 1e-9 * std::abs(digits);
+  const double whole = up ? std::ceil(digits - rounding) : std::floor(digits + rounding);
+  return fmt::format("{:.{}f}", whole * std::pow(10.0, -decimals), decimals);
+}
+
 std::string plus_minus(const Estimate& estimate, double coverage_factor, double scale,
                        const std::string& unit) {
   const std::string behind = unit.empty() || unit == "1" ? "" : " " + unit;
-  if (!estimate.determined() && estimate.interval) {
-    const double most = scale * estimate.interval->back();
-    const int decimals = decimals_of(most, 0);
-    const double unit_of_last = std::pow(10.0, -decimals);
-    return fmt::format("at most {:.{}f}{}", std::ceil(most / unit_of_last) * unit_of_last, decimals,
-                       behind);
-  }
+  if (!estimate.determined() && estimate.interval)
+    return "at most " + bound(scale * estimate.interval->back()) + behind;
   if (!estimate.determined())
     return estimate.why_not.empty() ? "not determined" : "not determined: " + estimate.why_not;
   const double U = scale * coverage_factor * estimate.u;

@@ -25,6 +25,9 @@ std::string wrapped(const std::string& head, std::string_view text, std::size_t 
 /// A length: "99.2 µm", from 1 mm on "2.89 mm"; "not determined".
 std::string um(double length_mm);
 
+/// Two digits of a bound, rounded to the safe side: 23.35 is at most 24 (`up`), at least 23.
+std::string bound(double value, bool up = true);
+
 /// "value ± U unit" of `scale` × the estimate, or its value and why there is no U.
 std::string plus_minus(const Estimate& estimate, double coverage_factor, double scale,
                        const std::string& unit);

@@ -96,6 +96,15 @@ class Reader {
     state_.tool = selected_;
   }
 
+  /// That a move at feed has a tool whose length is known.
+  void check_tool(const Word& first) {
+    if (state_.tool > 0 || options_.tools.empty() || has_length(0)) return;
+    if (state_.motion == Motion::rapid && state_.cycle == 0) return;
+    complain_once(first, told_tool_,
+                  "no tool is in the spindle, and [tools] of the machine has the lengths: write "
+                  "T and M6 before this block, or give tools.0.length_mm, or tool.length_mm");
+  }
+
   /// Axes whose words move when the length in force changes between two states.
   AxisSet length_axes(const ModalState& before, const ModalState& after) const {
     if (options_.mode == PositionMode::tip) return 0;
@@ -201,6 +210,7 @@ class Reader {
       told_ = missing;
     }
     if (missing != 0) return;
+    check_tool(first);
     Move made;
     made.line = static_cast<std::uint32_t>(line_);
     made.modal = state_;
@@ -228,6 +238,7 @@ class Reader {
     std::vector<CycleStep> steps;
     if (trouble.empty()) steps = steps_of(cycle_.cycle(block_, state_, words_), trouble);
     if (!trouble.empty()) return complain(first, trouble);
+    check_tool(first);
     for (std::size_t k = 0; k < 3; ++k)
       if (has(block_.named, k)) decimals_[k] = block_.word(axis_letters[k])->decimals;
     known_ |= static_cast<AxisSet>(block_.named & 0b011);
@@ -357,7 +368,8 @@ class Reader {
   AxisSet known_ = 0, told_ = 0;
   std::string unknown_since_;
   std::size_t chords_ = 0;
-  bool continues_ = false, told_motion_ = false, told_incremental_ = false, told_chords_ = false;
+  bool continues_ = false, told_motion_ = false, told_incremental_ = false, told_chords_ = false,
+       told_tool_ = false;
 };
 
 }  // namespace

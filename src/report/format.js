@@ -57,6 +57,13 @@ function micrometres(mm, u_mm) {
   return `${text}${nbsp}µm`;
 }
 
+/** "≤ 24 µm" of a bound of 23.35 µm: two digits, upwards. */
+function atMost(mm) {
+  if (!isNumber(mm)) return 'not determined';
+  const um = mm * 1000, decimals = decimalsFor(um) ?? 3;
+  return `≤ ${fixed(Math.ceil(um * 10 ** decimals * (1 - 1e-9)) / 10 ** decimals, decimals)}${nbsp}µm`;
+}
+
 const millimetres = (mm, decimals = 3) => isNumber(mm) ? `${fixed(mm, decimals)}${nbsp}mm` : 'not determined';
 
 /** µm below 1 mm, mm from there. */

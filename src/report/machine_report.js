@@ -18,7 +18,7 @@ function keyNumbers(verdict) {
   return facts(
       [
         ['Tip off with the program as it is, on its path', micrometres(verdict.path_before_um / 1000, verdict.path_before_um / 1000)],
-        ['Tip off with the new program', `≤ ${micrometres(verdict.at_most_um / 1000, verdict.at_most_um / 1000)} (95 % confidence)`],
+        ['Tip off with the new program', `${atMost(verdict.at_most_um / 1000)} (95 % confidence)`],
         [
           'Tolerance',
           isNumber(verdict.tolerance_um) ? `${tick(verdict.tolerance_um)}${nbsp}µm` : 'none given'

@@ -7,7 +7,7 @@ const formReferences = {MZCI: 'minimum zone circle', MZCY: 'minimum zone cylinde
 const conformityWords = {met: 'met', not_met: 'not met', not_proven: 'not proven', not_judged: 'not judged'};
 
 /** A value ± U with the digits of its U. */
-const formCell = (one, k) => !one ? '–' : isNumber(one.at_most_mm) ? `≤ ${micrometres(one.at_most_mm)}` : Math.abs(one.mm) < 1e-9 ? '0' : plusMinus(one.mm, one.u_mm, k, 'no U');
+const formCell = (one, k) => !one ? '–' : isNumber(one.at_most_mm) ? atMost(one.at_most_mm) : Math.abs(one.mm) < 1e-9 ? '0' : plusMinus(one.mm, one.u_mm, k, 'no U');
 
 /** What the columns of a table are: as probed, less what is not of the part, less what may not be. */
 function formCases({motion, open}) {

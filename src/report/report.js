@@ -39,7 +39,7 @@ function keyNumbers(verdict) {
   const sameAsWorst = worst && Math.abs(worst.coaxiality_mm - verdict.coaxiality_before_mm) <= 1e-6 + 1e-3 * worst.coaxiality_mm;
   return facts([
     ['Coaxiality before: cut about the spindle axis', plusMinus(verdict.coaxiality_before_mm, sameAsWorst ? worst.u_mm : null, k, 'U as after')],
-    ['Coaxiality after: cut with the correction', `≤ ${micrometres(verdict.coaxiality_at_most_mm, verdict.coaxiality_at_most_mm)} (95 % confidence)`],
+    ['Coaxiality after: cut with the correction', `${atMost(verdict.coaxiality_at_most_mm)} (95 % confidence)`],
     ['Tolerance (coaxiality, a diameter)', tolerance],
   ], 'numbers');
 }

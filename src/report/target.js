@@ -61,7 +61,7 @@ function remaindersTable(target, references, k) {
   const rows = target.references.filter((r) => r.after).map((r) => [
     references[r.index].name, r.face ? 'axial run-out' : 'coaxiality',
     r.before ? plusMinus(r.before.coaxiality_mm, r.before.u_mm, k, 'u unknown') : 'not determined',
-    isNumber(r.after.at_most_mm) ? `${micrometres(r.after.coaxiality_mm, r.after.at_most_mm)}, ≤ ${micrometres(r.after.at_most_mm, r.after.at_most_mm)} (95 % confidence)` : `${micrometres(r.after.coaxiality_mm)}, u unknown`,
+    isNumber(r.after.at_most_mm) ? `${micrometres(r.after.coaxiality_mm, r.after.at_most_mm)}, ${atMost(r.after.at_most_mm)} (95 % confidence)` : `${micrometres(r.after.coaxiality_mm)}, u unknown`,
     r.face ? '–' : micrometres(r.after.offset_start_mm), r.face ? '–' : micrometres(r.after.offset_end_mm), tilt(r.after.tilt_deg),
     isNumber(r.weight) ? tick(r.weight) : '–']);
   return table(`Residual coaxiality of each reference if the part is cut about the target axis, ± U (k = ${tick(k)})`,

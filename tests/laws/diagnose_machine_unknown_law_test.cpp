@@ -53,6 +53,29 @@ TEST(DiagnoseMachineUnknownLaw, NamesWhatDoesMoreThanTheUnknown) {
   }));
 }
 
+// One number that is off is that number, and neither a bump of an axis nor part of another cause.
+TEST(DiagnoseMachineUnknownLaw, OneReadingThatIsOffIsThatReading) {
+  const Machine machine = trunnion();
+  for (const double off_mm : {0.012, 0.1, 1.0}) {
+    Draw draw(18);
+    ErrorModel truth = drawn_location_errors(machine, draw);
+    truth.terms.push_back(
+        {*parse_error_name("EAA"),
+         PolynomialError{{-50e-6, 0.0, 150e-6}, -40.0 * rad_per_deg, 40.0 * rad_per_deg}, 0.0});
+    BallPlan plan;
+    plan.c_deg.clear();
+    for (int k = 0; k < 12; ++k) plan.c_deg.push_back(30.0 * k);
+    MachineMeasurement data = measure_balls({machine, truth}, plan, sigma_mm, draw);
+    data.deviation_mm[27][1] += off_mm;
+    const MachineDiagnosis found = diagnose_machine(machine, std::span(&data, 1));
+    EXPECT_TRUE(names(found, "EAA.poly2"));
+    ASSERT_EQ(found.unexplained.size(), 1U) << off_mm;
+    EXPECT_TRUE(found.unexplained[0].pattern.starts_with("row 28 of file 1: one reading"));
+    const Estimate& amplitude = found.unexplained[0].amplitude;
+    EXPECT_NEAR(amplitude.value, off_mm, 4.0 * amplitude.u);  // 4 u: 6e-5 of normal errors
+  }
+}
+
 // A ball that slips once is named; one that slips twice goes along with something in time.
 TEST(DiagnoseMachineUnknownLaw, ABallThatSlipsTwiceIsUnexplained) {
   const Machine machine = trunnion();

@@ -104,11 +104,18 @@ void add_what_gains_less(const Found& search, std::vector<bool>& unknown) {
 std::vector<bool> parts_of_unknown(const Found& search, const std::vector<MachineFinding>& findings,
                                    bool read_outs) {
   std::vector<bool> unknown(findings.size());
+  const auto of_one_reading = [&](std::size_t at) {
+    return search.terms[search.found[at]].of_one_reading;
+  };
   for (std::size_t at = 0; at < findings.size(); ++at)
-    unknown[at] =
-        search.terms[search.found[at]].is_pattern() || shares_its_axis(findings[at], search) ||
-        (!read_outs && one_of_three(findings[at], findings, search)) || slips_again(at, search);
+    unknown[at] = (search.terms[search.found[at]].is_pattern() && !of_one_reading(at)) ||
+                  shares_its_axis(findings[at], search) ||
+                  (!read_outs && one_of_three(findings[at], findings, search)) ||
+                  slips_again(at, search);
   add_what_gains_less(search, unknown);
+  // What is off in one reading alone is not part of another cause.
+  for (std::size_t at = 0; at < findings.size(); ++at)
+    if (of_one_reading(at)) unknown[at] = true;
   return unknown;
 }
 
@@ -251,7 +258,10 @@ void state_findings(const TipFit& fit, const Found& search, const std::vector<Ma
         {{{found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
            found.cause.unit, ""},
           found.p_value},
-         found.effect() + (named ? ", which may be part of something unknown" : ""),
+         found.effect() + (named ? ", which may be part of something unknown"
+                           : search.terms[search.found[at]].of_one_reading
+                               ? " (measure it again, or leave the row out)"
+                               : ""),
          named,
          found.parameters,
          found.covariance});

@@ -44,13 +44,6 @@ bool within(const MatrixXd& columns, const MatrixXd& basis) {
   return any;
 }
 
-std::string data_row(const TipFit& fit, Index equation) {
-  const auto row = std::ranges::find_if(fit.problem.rows, [&](const Row& one) {
-    return equation >= one.first && equation < one.first + one.equations();
-  });
-  return fmt::format("row {} of file {}", row->row + 1, row->file + 1);
-}
-
 }  // namespace
 
 void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& finding) {
@@ -151,7 +144,7 @@ void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Se
   out.checks.push_back(
       {"outlier", p < 0.01,
        fmt::format("the largest residual is {:.3g} standard deviations ({}; p {:.2g})", most,
-                   data_row(fit, worst), p)});
+                   row_in_words(fit.problem, worst), p)});
   out.checks.push_back({"times", !timed,
                         timed ? "every row has its time"
                               : "the rows have no times: drift and warming up cannot be detected"});

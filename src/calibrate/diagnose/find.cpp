@@ -25,7 +25,7 @@ class Finder {
     out_.options = {options.false_alarm, out_.dictionary->tests(), 1.0, options.max_findings};
     search_again();
     scan_.emplace(fit.problem, geometry, out_.dictionary->basis(), timed);
-    out_.options.pattern_tests = static_cast<double>(std::max<std::size_t>(1, scan_->size()));
+    out_.options.pattern_tests = static_cast<double>(scan_->size() + equations());
   }
 
   Found found() {
@@ -122,6 +122,24 @@ class Finder {
     return true;
   }
 
+  std::size_t equations() const { return static_cast<std::size_t>(fit_.problem.equations); }
+
+  /// The number of a row that is furthest off after a set, over its own σ there.
+  Index furthest_off(const infer::Dictionary& dictionary, const Set& set) const {
+    const MatrixXd columns = dictionary.columns(set), base = dictionary.basis();
+    VectorXd freedom = VectorXd::Ones(base.rows()) - base.rowwise().squaredNorm();
+    VectorXd left = dictionary.residuals();
+    if (columns.cols() > 0) {
+      const MatrixXd basis = linear::orthonormal_basis(columns, 1e-6);
+      freedom -= basis.rowwise().squaredNorm();
+      left = linear::beside(basis, left);
+    }
+    // What is fitted through one reading says nothing of it.
+    Index at = 0;
+    (freedom.array() > 1e-6).select(left.array().square() / freedom.array(), 0.0).maxCoeff(&at);
+    return at;
+  }
+
   /// Whether an effect makes all but a fiftieth of a pattern.
   static bool made_by_effect(const infer::Dictionary& dictionary, std::size_t pattern) {
     const auto& own = dictionary.block(pattern);
@@ -153,6 +171,14 @@ class Finder {
         // One of many more than there are effects.
         out_.terms.back().tests = out_.options.pattern_tests / out_.options.tests;
       }
+    for (const Set& set : sets) {
+      const Index equation = furthest_off(now, set);
+      if (std::ranges::find(readings_, equation) != readings_.end()) continue;
+      readings_.push_back(equation);
+      looked.emplace_back(out_.terms.size(), set);
+      out_.terms.push_back(reading_term(fit_.problem, equation));
+      out_.terms.back().tests = out_.options.pattern_tests / out_.options.tests;
+    }
     if (looked.empty()) return false;
     infer::Dictionary wider = of(out_.terms);
     for (const auto& [term, set] : looked)
@@ -177,6 +203,7 @@ class Finder {
   Found out_;
   std::optional<PatternScan> scan_;
   std::vector<std::size_t> taken_;
+  std::vector<Index> readings_;  ///< numbers that were tried as off
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ struct Term {
   double reach = 0.0;               ///< of a period: its frequency lies within, per mm or rad
   std::string letters;              ///< of the axes that it is a function of; t: of the time
   std::optional<PatternPlace> place;  ///< of a local pattern
+  bool of_one_reading = false;        ///< a pattern: one number of one row is off
 
   const std::string& effect() const { return of.id; }
   bool angle() const { return of.unit == "rad"; }
@@ -59,6 +60,11 @@ infer::Dictionary dictionary_of(const std::vector<Term>& terms, const MatrixXd& 
 /// A periodic error of one period, mm or rad.
 Term periodic_term(const Problem& problem, const Geometry& geometry, MachineEffect of,
                    double period);
+
+/// One number of one row is off. @param equation of the number
+Term reading_term(const Problem& problem, Eigen::Index equation);
+/// "row 17 of file 1"
+std::string row_in_words(const Problem& problem, Eigen::Index equation);
 
 /// The slip of a target from a row on.
 Term slip_term(const Problem& problem, const Geometry& geometry, const MachineEffect& of,

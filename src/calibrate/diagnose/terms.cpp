@@ -173,6 +173,24 @@ Term periodic_term(const Problem& problem, const Geometry& geometry, MachineEffe
   return term;
 }
 
+std::string row_in_words(const Problem& problem, Eigen::Index equation) {
+  const auto row = std::ranges::find_if(problem.rows, [&](const Row& one) {
+    return equation >= one.first && equation < one.first + one.equations();
+  });
+  return fmt::format("row {} of file {}", row->row + 1, row->file + 1);
+}
+
+Term reading_term(const Problem& problem, Eigen::Index equation) {
+  Term term;
+  term.of_one_reading = true;
+  term.of.id = row_in_words(problem, equation) + ": one reading that is off";
+  term.of.formula = "amplitude of one reading";
+  term.of.parameters = {"amplitude"};
+  term.columns = MatrixXd::Zero(problem.equations, 1);
+  term.columns(equation, 0) = 1.0;
+  return term;
+}
+
 infer::Dictionary dictionary_of(const std::vector<Term>& terms, const MatrixXd& base,
                                 const VectorXd& weights, const CalibrationOptions& options) {
   std::vector<infer::Hypothesis> list;

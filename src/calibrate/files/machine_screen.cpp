@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "base/counted.hpp"
@@ -65,6 +66,14 @@ std::string read_out_screen(const AxisReadOut& one, double k) {
   return text;
 }
 
+/// χ² of the residuals at the stated noise, as the check of a diagnosis has it.
+bool exceeds_stated_noise(const Calibration& c) {
+  if (!(c.stated_noise_mm > 0.0) || c.equations <= c.unknowns) return false;
+  const auto freedom = static_cast<double>(c.equations - c.unknowns);
+  const double ratio = c.noise_mm / c.stated_noise_mm;
+  return cdf(complement(boost::math::chi_squared(freedom), freedom * ratio * ratio)) < 1e-3;
+}
+
 }  // namespace
 
 std::string size_in_readings(const MachineFinding& finding) {
@@ -81,10 +90,13 @@ std::string calibration_screen(const Calibration& c) {
   std::string text;
   if (c.equations > 0)
     text = fmt::format(
-        "DONE: {} errors of the machine found, RMS of {} numbers {} -> {}, noise {} ({})\n"
+        "{}: {} errors of the machine found, RMS of {} numbers {} -> {}, noise {} ({}){}\n"
         "next   trueaxis machine diagnose with the same data: names further errors\n",
-        c.parameters.size(), c.equations, um(c.rms_before_mm), um(c.rms_after_mm), um(c.noise_mm),
-        to_string(c.noise_basis));
+        exceeds_stated_noise(c) ? "UNEXPLAINED" : "DONE", c.parameters.size(), c.equations,
+        um(c.rms_before_mm), um(c.rms_after_mm), um(c.noise_mm), to_string(c.noise_basis),
+        exceeds_stated_noise(c)
+            ? fmt::format(", {:.2g} times the stated noise", c.noise_mm / c.stated_noise_mm)
+            : "");
   else
     text =
         "DONE: position errors found\n"
