@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_pieces = 10000;
 constexpr double most_parts = 1e5;  // lengths over which the errors bend that are looked at
-constexpr int most_rounds = 50;
+constexpr int most_rounds = 50, even_rounds = 10;
 
 }  // namespace
 
@@ -190,6 +190,19 @@ std::vector<double> evened(const std::vector<double>& ends, const std::vector<do
   return out;
 }
 
+/// The pieces that are beyond the tolerance in two: what bends at corners, as between the places of
+/// a table, is not evened out.
+std::vector<double> halved(const std::vector<double>& ends, const std::vector<double>& deviation_mm,
+                           double tolerance_mm) {
+  std::vector<double> out;
+  for (std::size_t j = 0; j < ends.size(); ++j) {
+    const double from = j == 0 ? 0.0 : ends[j - 1];
+    if (deviation_mm[j] > tolerance_mm) out.push_back(0.5 * (from + ends[j]));
+    out.push_back(ends[j]);
+  }
+  return out;
+}
+
 std::vector<double> equal(std::size_t count) {
   std::vector<double> out;
   for (std::size_t k = 1; k <= count; ++k)
@@ -208,14 +221,19 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
       std::max(off_at_start_mm, nominal_.distance_mm(to_.written_mm, 1.0));
   std::vector<double> ends{1.0}, deviations_mm{deviation_mm};
   for (int i = 0; i < most_rounds && off_at_ends_mm <= tolerance_mm; ++i) {
-    double asked = 0.0;
-    for (const double one : deviations_mm)
-      asked += std::sqrt((must_be_equal ? deviation_mm : one) / tolerance_mm);
-    // Deviations of pieces of another size are a guess: a little more in each round.
-    const double pieces_asked = std::ceil((1.0 + 0.01 * i) * asked);
-    if (!(pieces_asked <= static_cast<double>(most_pieces))) break;
-    const auto count = static_cast<std::size_t>(pieces_asked);
-    ends = must_be_equal ? equal(count) : evened(ends, deviations_mm, count);
+    if (i >= even_rounds && !must_be_equal) {
+      ends = halved(ends, deviations_mm, tolerance_mm);
+    } else {
+      double asked = 0.0;
+      for (const double one : deviations_mm)
+        asked += std::sqrt((must_be_equal ? deviation_mm : one) / tolerance_mm);
+      // Deviations of pieces of another size are a guess: a little more in each round.
+      const double pieces_asked = std::ceil((1.0 + 0.01 * i) * asked);
+      if (!(pieces_asked <= static_cast<double>(most_pieces))) break;
+      const auto count = static_cast<std::size_t>(pieces_asked);
+      ends = must_be_equal ? equal(count) : evened(ends, deviations_mm, count);
+    }
+    if (ends.size() > most_pieces) break;
     Tally of_pieces;
     Pieces pieces = cut(ends, 0.9 * tolerance_mm, of_pieces);
     if (pieces.reached) deviation_mm = *std::ranges::max_element(pieces.deviation_mm);
