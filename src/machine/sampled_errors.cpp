@@ -15,13 +15,20 @@ struct Needs {
   bool any = false, smooth = false;
 };
 
-Needs needs_of(const ErrorModel& errors, std::size_t axis) {
+bool is_limited(const MachineAxis& axis) {
+  return std::isfinite(axis.low) && std::isfinite(axis.high);
+}
+
+Needs needs_of(const ErrorModel& errors, const MachineAxis& of) {
   Needs needs;
+  const std::size_t axis = index_of(of.name);
   for (const ErrorTerm& term : errors.terms) {
     if (!term.name.component || term.name.body != axis) continue;
     needs.any = true;
     const auto* table = std::get_if<TableError>(&term.function);
-    if (table != nullptr && !table->periodic)
+    // A turn that is written from 0 to 360° keeps the places of its table.
+    if (table != nullptr &&
+        (!table->periodic || (!is_limited(of) && std::abs(table->at.front()) < 1e-9)))
       needs.positions.insert(needs.positions.end(), table->at.begin(), table->at.end());
     else if (!std::holds_alternative<ConstantError>(term.function))
       needs.smooth = true;
@@ -31,7 +38,7 @@ Needs needs_of(const ErrorModel& errors, std::size_t axis) {
 
 std::vector<double> positions_of(const MachineAxis& axis, Needs needs, int points) {
   double low = axis.low, high = axis.high;
-  const bool limited = std::isfinite(low) && std::isfinite(high);
+  const bool limited = is_limited(axis);
   if (!limited && is_rotary(axis.name)) low = 0.0, high = two_pi;
   if (needs.smooth && !limited && !is_rotary(axis.name))
     throw InputError("machine", std::string("axis ") + letter_of(axis.name) +
@@ -88,8 +95,9 @@ std::vector<SampledErrors> sample_components(const Machine& machine, const Error
   std::vector<SampledErrors> all;
   for (std::size_t k = 0; k < axis_count; ++k) {
     const MachineAxis* axis = machine.find(static_cast<AxisName>(k));
-    const Needs needs = needs_of(errors, k);
-    if (axis == nullptr || !needs.any) continue;
+    if (axis == nullptr) continue;
+    const Needs needs = needs_of(errors, *axis);
+    if (!needs.any) continue;
     SampledErrors one{axis->name, positions_of(*axis, needs, points), {}};
     const bool inverted = axis->carries_workpiece && sign != errors.sign;
     for (const double position : one.positions) {

@@ -2,6 +2,7 @@
 #include "machine/files/errors_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "format/file.hpp"
@@ -71,6 +72,16 @@ ErrorsOfFiles read_errors_files(std::span<const std::string> paths, const Machin
 ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& machine,
                        const ErrorsFiles& said) {
   return read_errors_files(paths, machine, said).errors;
+}
+
+TableError table_of_turns(AxisName axis, TableError table) {
+  if (!is_rotary(axis) || table.at.size() < 3) return table;
+  const double turn = table.at.back() - table.at.front();
+  const auto [low, high] = std::ranges::minmax(table.values);
+  const double apart = std::abs(table.values.back() - table.values.front());
+  table.periodic = std::abs(turn - two_pi) < 1e-9 && apart <= 1e-6 * (high - low);
+  if (table.periodic) table.values.back() = table.values.front();
+  return table;
 }
 
 std::string error_name_trouble(const std::string& text, const Machine& machine) {

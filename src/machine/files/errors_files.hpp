@@ -91,4 +91,8 @@ std::string errors_text(const Machine& machine, const ErrorModel& errors,
 /// Why `text` names no error of this machine; empty: it names one.
 std::string error_name_trouble(const std::string& text, const Machine& machine);
 
+/// A table of a format that does not say whether it goes on beyond its ends: that of a rotary axis
+/// over one turn that ends as it begins does.
+TableError table_of_turns(AxisName axis, TableError table);
+
 }  // namespace trueaxis

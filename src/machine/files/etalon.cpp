@@ -100,7 +100,7 @@ class EtalonReader {
     if (!last) return;
     in_grid_ = false;
     if (name_ && grid_.at.size() < 2) complain("Gridpoints need two rows or more");
-    add(grid_);
+    add(name_ ? table_of_turns(static_cast<AxisName>(name_->body % axis_count), grid_) : grid_);
   }
 
   /// The first of a block's numbers that is not a size of its error.

@@ -109,7 +109,7 @@ class BlockReader {
       table.at.push_back(row.values.front() * edge_unit(*argument));
       table.values.push_back(row.values[i]);
     }
-    errors.terms.push_back({name, std::move(table)});
+    errors.terms.push_back({name, table_of_turns(*argument, std::move(table))});
   }
 
   /// At the first row whose number is not a size of the column's error.
