@@ -129,7 +129,7 @@ TEST_F(ErrorsFiles, CalibrateGoesOnFromItsOwnErrors) {
 }
 
 // ISG and Etalon tables do not say what is beyond 0 … 360°. One that ends as it begins goes round,
-// and is written as it was read. 3 cos C − 4 sin C in a table is off by c (Δ/2)²/2 ≤ 5 · 0.0314²/2
+// and is written as it was read. The wave in a table is off by c (Δ/2)²/2 ≤ 5 · 0.0314²/2
 // µm between its points.
 TEST_F(ErrorsFiles, ATableOfAWholeTurnGoesRound) {
   file("four.toml",
