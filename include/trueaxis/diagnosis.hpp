@@ -156,6 +156,7 @@ struct Diagnosis : Conclusion {
   std::vector<double> residual_before_mm, residual_after_mm;  ///< one per reading
   std::vector<SpectrumBin> spectrum;
 
+  std::vector<Influence> known;  ///< of the options: by their values the readings are corrected
   /// As in the options, which outlive this, or `entries`.
   std::span<const Effect> own_effects = {};
   /// If something is stated: those of the options, and entries of the catalogue as it is stated.

@@ -2,6 +2,7 @@
 #include "cli/diagnosed_stream.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/error.hpp"
@@ -19,6 +20,16 @@ std::string diagnosed_stream_path(const std::string& said, const std::string& di
   }
   throw InputError(diagnosis_path,
                    "its stream `" + named + "` is not there: say where it is with --stream");
+}
+
+ProbeStream as_diagnosed(ProbeStream measured, const Diagnosis& diagnosis, double ball_radius_mm) {
+  FitOptions options;
+  options.surface = diagnosis.baseline.surface;
+  options.bore = diagnosis.baseline.bore;
+  options.loss = diagnosis.baseline.loss;
+  options.ball_radius_mm = ball_radius_mm;
+  options.influences = diagnosis.known;
+  return corrected_by_known(std::move(measured), options);
 }
 
 void expect_read_as_then(const std::string& diagnosis_path, const Diagnosis& diagnosis,

@@ -14,6 +14,9 @@ namespace trueaxis::cli {
 std::string diagnosed_stream_path(const std::string& said, const std::string& diagnosis_path,
                                   const Diagnosis& diagnosis);
 
+/// What the diagnosis was of: the stream as it was corrected by what was known.
+ProbeStream as_diagnosed(ProbeStream measured, const Diagnosis& diagnosis, double ball_radius_mm);
+
 /// The diagnosed part as the virtual lathe takes it again.
 /// @throws InputError for another stream (hash), and one that is read otherwise than then
 Resimulation measured_again(const std::string& diagnosis_path, const Diagnosis& diagnosis,

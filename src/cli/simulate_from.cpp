@@ -22,8 +22,9 @@ namespace {
 
 namespace lathe = virtual_lathe;
 
-int play(const SimulateOptions& options, const Diagnosis& diagnosis, const ProbeStream& measured,
+int play(const SimulateOptions& options, const Diagnosis& diagnosis, const ProbeStream& as_read,
          Outputs& outputs) {
+  const ProbeStream measured = as_diagnosed(as_read, diagnosis, options.ball_radius_mm);
   std::optional<Waiting> waiting("measuring the part of " + options.diagnosis + " again");
   DiagnosedScenarios scenarios = diagnosed_scenarios(diagnosis, measured, options.ball_radius_mm);
   const Resimulation again = resimulate(scenarios, diagnosis, measured);

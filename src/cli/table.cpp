@@ -108,7 +108,8 @@ IdentifiedJob result_of(const CorrectArguments& options, Job job, Identified fou
     StreamOptions stream = options.stream;
     stream.path = diagnosed_stream_path(stream.path, path, *found.diagnosis);
     outputs.reads(stream.path);
-    measured = stream.read();
+    measured = as_diagnosed(stream.read(), *found.diagnosis, options.ball_radius_mm);
+    reference.fit.influences = found.diagnosis->known;
     result.resimulations[0] =
         measured_again(path, *found.diagnosis, measured, options.ball_radius_mm);
   }

@@ -188,6 +188,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
   Diagnosis out;
   const DiagnoseOptions options = with_entries(asked, out);
   out.false_alarm = options.false_alarm;
+  out.known = asked.fit.influences;
   const int threads = threads_beside(stream.size(), options.threads);
   DistinctValues indicated;
   for_each_index(2, threads, [&](std::size_t k) {

@@ -160,6 +160,21 @@ TEST_F(RunCommand, OnlyRepeatingMotionsMayBeAskedFor) {
   EXPECT_EQ(result("out/result.json").at("included").at(0).at("included"), false);
 }
 
+/// The job's target axis is taken at the middle of the cut: 1e-7 mm is the last digit of a row.
+void expect_same_rows(const std::string& table, const std::string& as) {
+  std::istringstream one(rows_of(table)), other(rows_of(as));
+  std::string left, right;
+  std::size_t rows = 0;
+  while (std::getline(one, left) && std::getline(other, right)) {
+    if (left.empty() || left[0] == 'r') continue;
+    ++rows;
+    const double a = std::stod(left.substr(left.rfind(',') + 1)),
+                 b = std::stod(right.substr(right.rfind(',') + 1));
+    ASSERT_NEAR(a, b, 1.5e-7) << left << '\n' << right;
+  }
+  EXPECT_GE(rows, 360u * 40u);  // 4 mm at 0.1 mm a revolution
+}
+
 class CorrectCommand : public CommandTest {
  protected:
   void SetUp() override {
@@ -230,19 +245,23 @@ TEST_F(CorrectCommand, TableIsThatOfTheWholeJob) {
   EXPECT_EQ(printed.out, read_text(folder_ / "a/b c/table.csv"));
   EXPECT_EQ(printed.out, command("table - --target job.toml -o - < d.json").out);
   EXPECT_EQ(printed.out, command("table d.json --target - -o - < job.toml").out);
-  // The job's target axis is taken at the middle of the cut: 1e-7 mm is the last digit of a row.
-  std::istringstream one(rows_of(printed.out)),
-      other(rows_of(read_text(folder_ / "out/table.csv")));
-  std::string left, right;
-  std::size_t rows = 0;
-  while (std::getline(one, left) && std::getline(other, right)) {
-    if (left.empty() || left[0] == 'r') continue;
-    ++rows;
-    const double a = std::stod(left.substr(left.rfind(',') + 1)),
-                 b = std::stod(right.substr(right.rfind(',') + 1));
-    ASSERT_NEAR(a, b, 1.5e-7) << left << '\n' << right;
-  }
-  EXPECT_GE(rows, 360u * 40u);  // 4 mm at 0.1 mm a revolution
+  expect_same_rows(printed.out, read_text(folder_ / "out/table.csv"));
+}
+
+// What is known is in the diagnosis: the table needs it no second time.
+TEST_F(CorrectCommand, TableIsThatOfTheWholeJobWhereSomethingIsKnown) {
+  file("known.toml", simple_job(cylinder_reference) +
+                         "[sensor]\nheight_mm = 0.2\nu_height_mm = 0.01\ngain = 0.01\n"
+                         "u_gain = 0.002\n");
+  ASSERT_EQ(command("run known.toml -o out").exit_code, 0);
+  ASSERT_EQ(command("diagnose part.csv --surface cylinder --known height_mm=0.2±0.01 --known "
+                    "gain=0.01±0.002 --json known.json")
+                .exit_code,
+            0);
+  const CommandStreams printed = command("table known.json --target job.toml -o -");
+  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  expect_same_rows(printed.out, read_text(folder_ / "out/table.csv"));
+  EXPECT_EQ(command("simulate --from known.json --compare").exit_code, 0);
 }
 
 TEST_F(CorrectCommand, RefusalNamesNumberAndSpeedAndLeavesNoTable) {

@@ -105,7 +105,10 @@ Json options_object(const Diagnosis& d) {
           {"feature", d.baseline.bore ? "bore" : "shaft"},
           {"loss", to_string(d.baseline.loss)},
           {"coverage_factor", number(d.baseline.coverage_factor)},
-          {"false_alarm", number(d.false_alarm)}};
+          {"false_alarm", number(d.false_alarm)},
+          {"known", list_of(d.known, [](const Influence& one) -> Json {
+             return {{"key", info_of(one.kind).key}, {"value", one.value}, {"u", one.u}};
+           })}};
 }
 
 Json maybe_length(const std::optional<double>& value_mm) {

@@ -71,6 +71,14 @@ Unexplained unexplained_from(const Json& json) {
           pattern_term_from(json.at("term"))};
 }
 
+Influence influence_from(const Json& json) {
+  const auto key = json.at("key").get<std::string>();
+  const auto info = std::ranges::find(influence_catalogue(), key, &InfluenceInfo::key);
+  if (info == influence_catalogue().end())
+    throw InputError("diagnosis", "nothing that may be known is called `" + key + "`");
+  return {info->kind, json.at("u"), json.at("value")};
+}
+
 Diagnosis diagnosis_from(const Json& json, std::span<const Effect> own_effects) {
   if (json.at("schema") != diagnosis_schema)
     throw InputError("diagnosis", std::string("its schema is not ") + diagnosis_schema +
@@ -95,6 +103,8 @@ Diagnosis diagnosis_from(const Json& json, std::span<const Effect> own_effects) 
   for (const Json& hidden : json.at("not_observable"))
     d.not_observable.push_back(not_observable_from(hidden));
   for (const Json& plan : json.at("plans")) d.plans.push_back(separating_from(plan));
+  if (json.at("options").contains("known"))  // version 0.1.0 did not write them
+    for (const Json& one : json["options"]["known"]) d.known.push_back(influence_from(one));
   return d;
 }
 
