@@ -45,6 +45,10 @@ struct Actuator {
   /// e^{−iωT/2} (Eq. 112).
   std::complex<double> response(double frequency_hz) const;
 
+  /// What is not known of a measured response between its points, as a share of it: by how much
+  /// straight lines between them differ from the cubics that `response` takes. 0 without points.
+  double between_points(double frequency_hz) const;
+
   /// Lowest frequency at which |response| falls to −3 dB, Hz (Eq. 117).
   double bandwidth_hz() const;
 
@@ -179,13 +183,14 @@ struct ActuatorMargin {
   double following_uncompensated_mm = 0.0;  ///< peak, if the wanted profile were sent as it is
   double following_mm = 0.0;                ///< peak, with what X_command holds; steady run
   double following_once_mm = 0.0;  ///< of it what turns once per revolution with the part, at the
-                                   ///< ///< worst place: the axis of the cut moves by it (Eq. 116a)
+                                   ///< worst place: the axis of the cut moves by it (Eq. 116a)
   double following_limit_mm = 0.0;
   bool follows = false;
   Reasons breaks;              ///< the limits that break, none when it follows
   double max_speed_rpm = 0.0;  ///< highest speed at which it would run, where it runs at most that
                                ///< of a third of the bandwidth or its own; 0: at none
   Reasons remedies;            ///< what would make it follow, none when it follows
+  double following_unknown_mm = 0.0;  ///< part of `following_mm`: between points of the response
 };
 
 /// An error motion of the machine that the probe saw along X and that repeats while cutting. The

@@ -16,9 +16,52 @@ using Complex = std::complex<double>;
 
 constexpr double most_lead_rad = 0.1;  // a measurement may be off by as much
 
-/// Measured response at a frequency: log gain and unwrapped phase linear between points; below the
-/// first point the phase runs to 0 at 0 Hz, beyond the last the gain stays and the phase goes on.
-Complex interpolated(const std::vector<ResponsePoint>& points, double frequency_hz) {
+/// Log gain and unwrapped phase at a frequency.
+struct LogResponse {
+  double frequency_hz, log_gain, phase_rad;
+};
+
+/// Of a real system: the points and their images at negative frequencies, where the gain is the
+/// same and the phase the opposite.
+std::vector<LogResponse> both_sides(const std::vector<ResponsePoint>& points) {
+  std::vector<LogResponse> above;
+  double phase = 0.0;
+  for (const ResponsePoint& point : points) {
+    if (point.frequency_hz > 0.0) phase += std::remainder(point.phase_rad - phase, two_pi);
+    above.push_back({point.frequency_hz, std::log(point.gain), phase});
+  }
+  std::vector<LogResponse> all;
+  for (std::size_t i = above.size(); i-- > 0;)
+    if (above[i].frequency_hz > 0.0)
+      all.push_back({-above[i].frequency_hz, above[i].log_gain, -above[i].phase_rad});
+  all.insert(all.end(), above.begin(), above.end());
+  return all;
+}
+
+/// Slope at point i of the parabola through it and its neighbours, at an end through the two next.
+double parabola_slope(const std::vector<LogResponse>& at, std::size_t i,
+                      double LogResponse::*value) {
+  const std::size_t m = std::clamp<std::size_t>(i, 1, at.size() - 2);
+  const auto over = [&](std::size_t a, std::size_t b) {
+    return (at[b].*value - at[a].*value) / (at[b].frequency_hz - at[a].frequency_hz);
+  };
+  const double before = over(m - 1, m), after = over(m, m + 1);
+  const double bend = (after - before) / (at[m + 1].frequency_hz - at[m - 1].frequency_hz);
+  return before + bend * (2.0 * at[i].frequency_hz - at[m - 1].frequency_hz - at[m].frequency_hz);
+}
+
+/// Cubic between two points by these slopes (Hermite).
+double cubic(const std::vector<LogResponse>& at, std::size_t i, double frequency_hz,
+             double LogResponse::*value) {
+  const double width = at[i + 1].frequency_hz - at[i].frequency_hz;
+  const double s = (frequency_hz - at[i].frequency_hz) / width, r = 1.0 - s;
+  return r * r * (1.0 + 2.0 * s) * (at[i].*value) + s * s * (1.0 + 2.0 * r) * (at[i + 1].*value) +
+         s * r * width * (r * parabola_slope(at, i, value) - s * parabola_slope(at, i + 1, value));
+}
+
+/// Log gain and unwrapped phase linear between points; below the first point the phase runs to 0 at
+/// 0 Hz, beyond the last the gain stays and the phase goes on.
+Complex by_straight_lines(const std::vector<ResponsePoint>& points, double frequency_hz) {
   ResponsePoint low{0.0, points.front().gain, 0.0}, high = low;
   double slope = 0.0;
   for (const ResponsePoint& point : points) {
@@ -36,6 +79,17 @@ Complex interpolated(const std::vector<ResponsePoint>& points, double frequency_
   if (frequency_hz >= high.frequency_hz) return std::polar(high.gain, phase);
   const double share = (frequency_hz - low.frequency_hz) / (high.frequency_hz - low.frequency_hz);
   return std::polar(low.gain * std::pow(high.gain / low.gain, share), phase);
+}
+
+/// Measured response at a frequency: log gain and unwrapped phase as cubics between points.
+Complex interpolated(const std::vector<ResponsePoint>& points, double frequency_hz) {
+  const std::vector<LogResponse> at = both_sides(points);
+  if (at.size() < 3 || frequency_hz >= at.back().frequency_hz)
+    return by_straight_lines(points, frequency_hz);
+  const auto above = std::ranges::upper_bound(at, frequency_hz, {}, &LogResponse::frequency_hz);
+  const auto i = static_cast<std::size_t>(above - at.begin()) - 1;
+  return std::polar(std::exp(cubic(at, i, frequency_hz, &LogResponse::log_gain)),
+                    cubic(at, i, frequency_hz, &LogResponse::phase_rad));
 }
 
 /// Frequency at which the measured gain first falls to 1/sqrt(2); the last point when it does not.
@@ -72,6 +126,12 @@ std::complex<double> Actuator::response(double frequency_hz) const {
   const double hold = std::numbers::pi * frequency_hz / sampling_hz;  // ωT/2
   const double sinc = hold == 0.0 ? 1.0 : std::sin(hold) / hold;
   return mechanics * sinc * std::polar(1.0, -(two_pi * frequency_hz * delay_s + hold));
+}
+
+double Actuator::between_points(double frequency_hz) const {
+  if (measured.empty()) return 0.0;
+  return std::abs(by_straight_lines(measured, frequency_hz) / interpolated(measured, frequency_hz) -
+                  1.0);
 }
 
 double Actuator::bandwidth_hz() const {

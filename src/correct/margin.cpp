@@ -112,7 +112,7 @@ double peak_over_phases(const Chain& chain, const std::vector<Complex>& base,
 /// Demands of one place along the cut, largest over a revolution.
 struct Demand {
   Extremes command;
-  double slew_mm_per_s = 0.0, following_mm = 0.0, following_once_mm = 0.0;
+  double slew_mm_per_s = 0.0, following_mm = 0.0, following_once_mm = 0.0, unknown_mm = 0.0;
 };
 
 /// What turns once per revolution with the part, Eq. 116a: the first harmonic's own error, and the
@@ -161,6 +161,12 @@ Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted,
                         peak_over_phases(chain, std::vector<Complex>(orders), command,
                                          chain.between_set_points, turn);
   demand.following_once_mm = once_a_revolution(chain, following, command, actuator);
+  for (std::size_t k = 0; k < orders; ++k) {
+    const double unknown_mm = chain.paths[k].unknown * std::abs(wanted[k].value);
+    demand.unknown_mm += unknown_mm;
+    if (chain.paths[k].order == 1) demand.following_once_mm += unknown_mm;
+  }
+  demand.following_mm += demand.unknown_mm;
   return demand;
 }
 
@@ -201,6 +207,10 @@ void judge(ActuatorMargin& m, int highest_order) {
                          {"needed", 2.0 * highest_order},
                          {"order", double(highest_order)}}});
   within(m.following_mm, m.following_limit_mm, "mm", ReasonCode::following_error_exceeded);
+  // Without what the points do not show it would follow.
+  if (m.following_mm > m.following_limit_mm &&
+      m.following_mm - m.following_unknown_mm <= m.following_limit_mm)
+    m.breaks.back().numbers.push_back({"unknown", m.following_unknown_mm, "mm"});
   m.follows = m.breaks.empty();
 }
 
@@ -249,6 +259,7 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const A
     margin.slew_used_mm_per_s = std::max(margin.slew_used_mm_per_s, sent.slew_mm_per_s);
     margin.following_mm = std::max(margin.following_mm, sent.following_mm);
     margin.following_once_mm = std::max(margin.following_once_mm, sent.following_once_mm);
+    margin.following_unknown_mm = std::max(margin.following_unknown_mm, sent.unknown_mm);
     margin.following_uncompensated_mm =
         std::max(margin.following_uncompensated_mm, plain.following_mm);
     highest_order = std::max(highest_order, highest_order_of(spectrum, wanted));

@@ -40,7 +40,8 @@ std::vector<HarmonicPath> harmonic_paths(const Actuator& actuator, const Motion&
     const Complex slope = (signed_response(actuator, frequency_hz + step_hz) -
                            signed_response(actuator, frequency_hz - step_hz)) /
                           (2.0 * two_pi * step_hz);
-    paths.push_back({n, kept * actuator.response(frequency_hz), kept * slope});
+    paths.push_back({n, kept * actuator.response(frequency_hz), kept * slope,
+                     actuator.between_points(frequency_hz)});
   }
   return paths;
 }

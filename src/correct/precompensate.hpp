@@ -30,6 +30,7 @@ struct HarmonicPath {
   int order = 0;
   std::complex<double> response;        ///< sinc² · H at nω
   std::complex<double> response_slope;  ///< its derivative by ω, s
+  double unknown = 0.0;                 ///< share of the response that its points do not show
 };
 
 std::vector<HarmonicPath> harmonic_paths(const Actuator& actuator, const Motion& motion,

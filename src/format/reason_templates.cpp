@@ -126,7 +126,9 @@ std::string_view template_of(ReasonCode code) {
       {set_points_too_few,
        "set-points {per_revolution::.4g} per revolution; order {order::.0f} needs more than "
        "{needed::.0f}"},
-      {following_error_exceeded, "following error {used:um:.4g} µm of {available:um:.4g} µm"},
+      {following_error_exceeded,
+       "following error {used:um:.4g} µm of {available:um:.4g} µm<, {unknown:um:.2g} µm of it "
+       "because the points of the measured response are too far apart here: measure more of them>"},
       {rows_coarse,
        "{rows::.0f} rows per revolution: straight lines between them are off by up to {off:um:.3g} "
        "µm; {remedies}"},

@@ -69,6 +69,13 @@ TEST_F(SweepCut, CorrectedItGoesWithTheNoise) {
   }
 }
 
+// An actuator that follows at once is not sent ahead, whatever the speed: the same 10 nm as above.
+TEST_F(SweepCut, WhatFollowsAtOnceIsNotSentAhead) {
+  const auto cells =
+      cells_of("use = \"command\"\n", "[[axis]]\nkey = \"noise.sigma_um\"\nvalues = [0]\n", 2, "2");
+  EXPECT_LT(row(cells[0], "coaxiality")["rmse"].get<double>(), 1e-5);
+}
+
 // A pointed tool leaves no feed marks and a nose of radius r leaves arcs of height f²/(8 r), which
 // scatter by their height over √(45/4) about their mean; to f²/r² of it and what the probe's lead
 // leaves out.

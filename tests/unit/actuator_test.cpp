@@ -77,20 +77,52 @@ TEST(Actuator, BandwidthIsWhereTheGainFallsToMinusThreeDecibels) {
   EXPECT_NEAR(butterworth.bandwidth_hz(), 600.0, 1e-9);
 }
 
-TEST(Actuator, MeasuredResponseIsInterpolatedInLogGainAndUnwrappedPhase) {
+TEST(Actuator, MeasuredResponseGoesThroughItsPointsWithUnwrappedPhase) {
   Actuator actuator = without_hold();
   actuator.measured = {{100.0, 1.0, -1.0}, {200.0, 0.25, -3.0}, {300.0, 0.25, 1.28318530717958648}};
-  // The hold of 1e12 Hz turns the phase by πf/f_s = 1e-9.
-  EXPECT_NEAR(std::abs(actuator.response(150.0)), 0.5, 1e-12);
-  EXPECT_NEAR(std::arg(actuator.response(150.0)), -2.0, 2e-9);
-  EXPECT_NEAR(std::arg(actuator.response(50.0)), -0.5, 2e-9);
-  // 1.283… is −5 a turn on: half way between −3 and −5.
-  EXPECT_NEAR(std::remainder(std::arg(actuator.response(250.0)) + 4.0, 2.0 * pi), 0.0, 2e-9);
+  // The hold of 1e12 Hz turns the phase by πf/f_s = 1e-9. 1.283… is −5 a turn on.
+  EXPECT_NEAR(std::abs(actuator.response(100.0)), 1.0, 1e-12);
+  EXPECT_NEAR(std::abs(actuator.response(200.0)), 0.25, 1e-12);
+  EXPECT_NEAR(std::arg(actuator.response(200.0)), -3.0, 2e-9);
+  EXPECT_NEAR(std::remainder(std::arg(actuator.response(300.0)) + 5.0, 2.0 * pi), 0.0, 2e-9);
   EXPECT_NEAR(std::remainder(std::arg(actuator.response(350.0)) + 6.0, 2.0 * pi), 0.0, 2e-9);
-  // Gain 1 at 100 Hz falls by a factor 4 in 100 Hz: 1/sqrt(2) after a quarter of that.
+  // By straight lines the gain of 1 at 100 Hz falls by a factor 4 in 100 Hz: 1/sqrt(2) after a
+  // quarter of that.
   EXPECT_NEAR(actuator.bandwidth_hz(), 125.0, 1e-9);
   actuator.measured.front().gain = 0.5;  // has fallen before the first point
   EXPECT_EQ(actuator.bandwidth_hz(), 0.0);
+}
+
+// A pure delay: its phase is a straight line through 0, and nothing is unknown between points.
+TEST(Actuator, MeasuredDelayIsThatDelayFromFewPoints) {
+  Actuator actuator = without_hold();
+  actuator.measured = {{20.0, 1.0, -0.2}, {50.0, 1.0, -0.5}, {300.0, 1.0, -3.0}};
+  for (const double f : {0.0, 3.0, 35.0, 200.0, 290.0}) {
+    EXPECT_NEAR(std::abs(actuator.response(f) - std::polar(1.0, -0.01 * f)), 0.0, 2e-9) << f;
+    EXPECT_NEAR(actuator.between_points(f), 0.0, 1e-12) << f;
+  }
+}
+
+// Sparse points of a second order, within them: the cubic is off by less than a third of what it
+// says is unknown, and that falls as the square of the spacing, as straight lines do.
+TEST(Actuator, MeasuredResponseSaysWhatItsPointsDoNotShow) {
+  Actuator model = without_hold();
+  model.natural_frequency_hz = 150.0, model.damping = 0.5;
+  double coarse = 0.0, fine = 0.0;
+  for (const double step : {10.0, 5.0}) {
+    Actuator measured = without_hold();
+    for (double f = step; f < 120.0; f += step) {
+      const Complex h = model.response(f);
+      measured.measured.push_back({f, std::abs(h), std::arg(h)});
+    }
+    for (double f = 0.3 * step; f < 60.0; f += 0.77 * step) {
+      const double unknown = measured.between_points(f);
+      const double off = std::abs(measured.response(f) / model.response(f) - 1.0);
+      EXPECT_LT(off, unknown / 3.0 + 1e-9) << step << ' ' << f;
+      (step > 7.0 ? coarse : fine) = std::max(step > 7.0 ? coarse : fine, unknown);
+    }
+  }
+  EXPECT_NEAR(coarse / fine, 4.0, 1.0);
 }
 
 TEST(Actuator, MeasuredResponseOfASecondOrderIsThatSecondOrder) {
@@ -101,8 +133,8 @@ TEST(Actuator, MeasuredResponseOfASecondOrderIsThatSecondOrder) {
     measured.measured.push_back({f, std::abs(h), std::arg(h)});
   }
   for (const double f : {0.3, 16.67, 123.4, 599.9}) {
-    // Linear interpolation over 1 Hz errs by (1/f_n)²/8 times a curvature of order 1.
-    EXPECT_NEAR(std::abs(measured.response(f) - model.response(f)), 0.0, 2e-6) << f;
+    // Straight lines over 1 Hz would err by (1/f_n)²/8 times a curvature of order 1.
+    EXPECT_NEAR(std::abs(measured.response(f) - model.response(f)), 0.0, 1e-8) << f;
   }
   EXPECT_NEAR(measured.bandwidth_hz(), model.bandwidth_hz(), 1e-3);
 }

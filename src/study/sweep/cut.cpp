@@ -40,6 +40,7 @@ Actuator actuator_of(const CutActuator& cut) {
   actuator.damping = cut.damping;
   actuator.delay_s = cut.delay_s;
   actuator.sampling_hz = cut.sampling_hz;
+  actuator.precompensate = !cut.perfect;
   return actuator;
 }
 
