@@ -137,6 +137,7 @@ struct ProbeLine {
 struct Response {
   enum class Of {
     gain,          ///< X − X_ref
+    zero,          ///< 1
     nonlinearity,  ///< v², v³ with v = (X − X_ref)/range
     cyclic,        ///< cos, sin (2π X/period)
     pretravel,     ///< into the material: 1; and cos, sin (n ψ) × tilt of the normal

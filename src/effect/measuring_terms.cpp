@@ -195,6 +195,8 @@ Parameters parameters(const Response& term, const TermShape&) {
       return {{{"time_constant", "s"}}, {"time_constant_s"}};
     case Of::hysteresis:
       return {{{"play", "mm"}}, {"play_mm"}};
+    case Of::zero:
+      return {{{"offset", "mm"}}, {}};
     case Of::gain:
       break;
   }
@@ -209,6 +211,7 @@ std::size_t count(const Response& term, const TermShape&) {
     case Of::pretravel:
       return 3;
     case Of::gain:
+    case Of::zero:
     case Of::lag:
     case Of::hysteresis:
       break;
@@ -223,6 +226,9 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
       for (std::size_t i = 0; i < at.size(); ++i) {
         out[0][i] = at.sensed_mm[i] - side * shape.reference_x_mm;
       }
+      return;
+    case Of::zero:
+      std::fill_n(out[0], at.size(), 1.0);
       return;
     case Of::nonlinearity:
       for (std::size_t i = 0; i < at.size(); ++i) {

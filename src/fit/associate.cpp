@@ -80,6 +80,13 @@ std::vector<double> level_start(const JointModel& model, const std::vector<Sampl
   return model.joined(working);
 }
 
+/// Further starts of a part that is alone: of several streams others tell its parameters.
+std::vector<std::vector<double>> further_starts(const JointModel& model,
+                                                const std::vector<double>& level) {
+  if (model.parts().size() != 1 || level.empty()) return {};
+  return model.parts().front().surface->further_starts(level);
+}
+
 constexpr double huber_k = 1.345, tukey_c = 4.685;  // 95 % efficiency on Gaussian noise
 constexpr double huber_listed = 6.0;                // σ: beyond it a Huber weight is below 0.23
 
@@ -172,7 +179,9 @@ Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& sample
     if (!found || model.tilt_may_be_mirrored(best.working, c)) to_mirror.push_back(c);
   }
   const bool few = model.size() <= model.parameter_count() + few_beyond;
-  if (to_mirror.empty() && !few) return minima;
+  std::vector<double> level = level_start(model, samples);
+  std::vector<std::vector<double>> further = further_starts(model, level);
+  if (to_mirror.empty() && !few && further.empty()) return minima;
   int passes = best.iterations;
   const auto attempt = [&](std::vector<double> from) {
     Minimum other = minimise(model, std::move(from), loss, max_iterations);
@@ -182,8 +191,8 @@ Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& sample
         (!minima.rival || lower(other, *minima.rival)))
       minima.rival = std::move(other);
   };
-  std::vector<double> level = level_start(model, samples);
   if (!level.empty()) attempt(std::move(level));
+  for (std::vector<double>& other : further) attempt(std::move(other));
   for (const std::size_t c : to_mirror) {
     if (best.normal.valid) attempt(model.mirrored(best.working, c));
   }

@@ -75,6 +75,12 @@ class Surface {
                                           std::size_t /*count*/) const {
     return {};
   }
+  /// Starts that are tried as well, of a surface that has several minima over few turns.
+  /// @param level the level start
+  virtual std::vector<std::vector<double>> further_starts(
+      const std::vector<double>& /*level*/) const {
+    return {};
+  }
   /// Whether the axis tilted the other way may be a second minimum: tilt then bends the sections
   /// (K R slope²) as much as it shifts them (slope × length), as on a short, large part (Eq. 25).
   virtual bool tilt_may_be_mirrored(std::span<const double> /*working*/) const { return false; }

@@ -35,6 +35,19 @@ class Torus final : public ProfileSurface {
       : ProfileSurface(std::make_shared<const Tube>(),
                        std::make_shared<const Parameters>(Tube().parameters()), frame) {}
 
+  /// Over about one turn a tilt and another tube read alike, and there are several minima: tubes of
+  /// other radii through the same middle of the section, by a factor from half to double.
+  std::vector<std::vector<double>> further_starts(const std::vector<double>& level) const override {
+    std::vector<std::vector<double>> out;
+    for (const double factor : {0.5, 0.7, 1.0, 1.4, 2.0}) {
+      out.push_back(level);
+      double &radius = out.back()[level.size() - 2], &tube = out.back().back();
+      radius += (1.0 - factor) * tube;
+      tube *= factor;
+    }
+    return out;
+  }
+
   Reported report(std::span<const double> working) const override {
     Reported all = ProfileSurface::report(working);
     const std::size_t last = working.size() - 1;

@@ -185,6 +185,7 @@ std::vector<AxisBiasCase> probe_cases(const Where& at) {
           mm("probe.ball_radius", ""),
           mm("probe.pretravel", "constant", {}, {0}),
           mm("probe.pretravel", "three lobes", {.order = 3}, {1, 2}),
+          mm("probe.x_zero", ""),
           unit(mm("probe.gain", "", sensed), small_share, "1"),
           mm("probe.nonlinearity", "quadratic", sensed, {0}),
           mm("probe.nonlinearity", "cubic", sensed, {1}),

@@ -248,6 +248,13 @@ inline std::vector<LatheCase> lateral_lathe_cases() {
        },
        {.order = 3},
        {0.0, co, si}},
+      {"probe.x_zero",
+       1e-3,
+       [](double a) {
+         return Parameters{{"offset_mm", a}};
+       },
+       {},
+       {1.0}},
       {"probe.gain",
        1e-3,
        [](double a) {

@@ -312,7 +312,8 @@ TEST(SimulateEffects, ZeroEffectsChangeNothingAndOthersSomething) {
       return name == "gain" || name == "dish_mm" || name == "dz_mm" || name.starts_with("tilt") ||
              name.starts_with("amplitude") || name.starts_with("growth") ||
              name.starts_with("dx") || name.starts_with("slope") || name.starts_with("along") ||
-             name.starts_with("depth") || name.starts_with("height") || name.starts_with("rate") ||
+             name.starts_with("depth") || name.starts_with("offset") ||
+             name.starts_with("height") || name.starts_with("rate") ||
              name.starts_with("quadratic") || name.starts_with("sagitta") || name == "angle_rad" ||
              name == "delay_s" || name == "time_constant_s" || name == "step_mm" ||
              name == "play_mm";

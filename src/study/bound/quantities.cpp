@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulate/axis_at_end.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
 
@@ -31,7 +32,7 @@ Chucking last_chucking(const Scenario& scenario) {
   return {};
 }
 
-TrueAxis axis_of(const Scenario& scenario) {
+TrueAxis axis_of(const Scenario& scenario, const Probed& probed) {
   const Chucking setup = last_chucking(scenario);
   const Part& part = scenario.part;
   TrueAxis axis{setup.x0_mm.value_or(part.x0_mm),
@@ -40,6 +41,13 @@ TrueAxis axis_of(const Scenario& scenario) {
                 setup.m.value_or(part.m),
                 1.0,
                 0.0};
+  // As it is at the end: slips and creeps have moved it, and of a bow it is the nearest line.
+  if (const auto now = axis_at_end(scenario, setup, probed.low_mm, probed.high_mm, probed.end_s)) {
+    axis.x0 = now->x0_mm, axis.y0 = now->y0_mm, axis.l = now->l, axis.m = now->m;
+    axis.n = std::sqrt(1.0 - axis.l * axis.l - axis.m * axis.m);
+    axis.from_origin_mm = setup.z_shift_mm / axis.n;
+    return axis;
+  }
   axis.n = std::sqrt(1.0 - axis.l * axis.l - axis.m * axis.m);
   axis.x0 -= axis.l / axis.n * setup.z_shift_mm;
   axis.y0 -= axis.m / axis.n * setup.z_shift_mm;
@@ -103,6 +111,7 @@ Probed probed_length(const ProbeStream& stream) {
       continue;
     out.low_mm = std::min(out.low_mm, stream.position_mm[i]);
     out.high_mm = std::max(out.high_mm, stream.position_mm[i]);
+    if (!stream.time_s.empty()) out.end_s = std::max(out.end_s, stream.time_s[i]);
   }
   return out;
 }
@@ -111,7 +120,7 @@ std::vector<double> true_values(const Scenario& scenario, const Probed& probed,
                                 SurfaceKind surface) {
   const Part& part = scenario.part;
   if (part.kind == PartKind::face) return face_of(scenario);
-  const TrueAxis axis = axis_of(scenario);
+  const TrueAxis axis = axis_of(scenario, probed);
   std::vector<double> out{axis.x0, axis.y0, axis.l, axis.m};
   const double apex = apex_of(part) + axis.from_origin_mm;
   if (surface == SurfaceKind::section) {

@@ -24,6 +24,7 @@ SurfaceKind surface_of(virtual_lathe::PartKind kind);
 /// Lowest and highest position of the readings since the part was last moved.
 struct Probed {
   double low_mm = 0.0, high_mm = 0.0;
+  double end_s = 0.0;  ///< of the last of them
 };
 Probed probed_length(const ProbeStream& stream);
 
