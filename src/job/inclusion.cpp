@@ -55,8 +55,12 @@ std::optional<Reason> motion_objection(const Job& job, const Diagnosis& diagnosi
   const auto [low, high] = std::minmax(job.target->z_start_mm, job.target->z_end_mm);
   const bool outside = low < diagnosis.z_mid_mm - 1.05 * diagnosis.z_half_mm ||
                        high > diagnosis.z_mid_mm + 1.05 * diagnosis.z_half_mm;
-  if (finding.term.effect->frame == EffectFrame::machine && outside)
-    return Reason{ReasonCode::beyond_probed_length};
+  // Motions that the readings do not tell apart are one where they were read, and not beyond.
+  double others = 0.0;
+  for (const Rival& rival : finding.rivals) others += rival.probability;
+  const bool same_beyond =
+      finding.term.effect->frame != EffectFrame::machine && others <= nonconformity_risk;
+  if (outside && !same_beyond) return Reason{ReasonCode::beyond_probed_length};
   return {};
 }
 

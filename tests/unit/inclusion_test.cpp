@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
+
 #include "correct/profile.hpp"
 #include "format/reason_words.hpp"
 #include "support/diagnosis_example.hpp"
@@ -86,18 +88,25 @@ TEST(Inclusion, AToolBesideTheProbesDirectionIsRefused) {
   EXPECT_TRUE(inclusion_of(result).refused);
 }
 
-// A slide's path is known where it was probed; a motion of the spindle is the same everywhere.
+// A slide's path is known where it was probed; a motion of the spindle is the same everywhere, if
+// it is told from one that grows along Z.
 TEST(Inclusion, AMotionOfTheMachineIsFollowedWithinTheProbedLength) {
   for (const bool beyond : {false, true}) {
-    for (const char* id : {"slide.z_straightness", "spindle.radial_synchronous"}) {
+    for (const char* id : {"slide.z_straightness", "spindle.radial_synchronous", "tilt as well"}) {
       Finding finding = spindle_lobes();
+      const bool tilt = std::string_view(id) == "tilt as well";
+      if (tilt) {
+        id = "spindle.radial_synchronous";
+        finding.probability = 0.6;
+        finding.rivals = {{"spindle.tilt_synchronous", 0.0, 0.0, 0.4, true}};
+      }
       finding.term.effect = find_effect(id);
       JobResult result = asked(finding);
       result.job.include = {id};
       const Diagnosis& diagnosis = *result.diagnoses.front();
       result.job.target->z_start_mm = diagnosis.z_mid_mm;
       result.job.target->z_end_mm = diagnosis.z_mid_mm + (beyond ? 2.0 : 1.0) * diagnosis.z_half_mm;
-      const bool refused = beyond && finding.term.effect->frame == EffectFrame::machine;
+      const bool refused = beyond && (tilt || finding.term.effect->frame == EffectFrame::machine);
       EXPECT_EQ(included_motions(result).motions.empty(), refused) << id;
       EXPECT_EQ(inclusion_of(result).refused, refused) << id;
     }
