@@ -46,7 +46,10 @@ DescribedOption described(const CLI::Option& option) {
 
 DescribedCommand described_command(const CLI::App& command) {
   DescribedCommand out{full_name(command), command.get_description(), {}};
-  for (const CLI::Option* option : command.get_options()) out.options.push_back(described(*option));
+  for (const CLI::Option* option : command.get_options()) {
+    const bool hidden = !option->get_lnames().empty() && option->get_group().empty();
+    if (!hidden) out.options.push_back(described(*option));
+  }
   return out;
 }
 

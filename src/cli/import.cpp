@@ -39,7 +39,7 @@ int import_axis(const ImportArguments& options) {
       import_read_out(options.stream.path, options.axis.front(), options.stream.recording());
   Outputs outputs(options.results.force);
   outputs.reads(options.stream.path);
-  outputs.may_write(options.output, "trueaxis.measurement");
+  outputs.may_begin(options.output, imported.text, "trueaxis.measurement");
   options.results.name_to(outputs);
   outputs.check();
   if (options.check) return checked(outputs, "convert " + counted(imported.rows, "position"));
@@ -72,7 +72,7 @@ int execute(const ImportArguments& options) {
   const std::string stub = job_stub(options.output, imported.stream);
   Outputs outputs(options.results.force);
   outputs.reads(options.stream.path);
-  outputs.may_write(options.output, "trueaxis.stream");
+  outputs.may_begin(options.output, imported.text, "trueaxis.stream");
   outputs.may_begin(job, stub);
   options.results.name_to(outputs);
   outputs.check();

@@ -225,6 +225,8 @@ void add_watch(CLI::App* command, int& exit_code) {
   RunArguments& run = options->run;
   run.stream.add_to(*command, "growing probe stream, or - for standard input");
   command->get_option("stream")->required(false);
+  for (const char* of_whole_files : {"--columns", "--skip"})
+    command->get_option(of_whole_files)->group("");  // refused below, and not in the help
   run.surface = run.association.add_to(*command);
   add_place(*command, "-o,--output", run.folder,
             "folder for the results (default INPUT_result, of a pipe `result`)");

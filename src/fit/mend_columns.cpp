@@ -18,15 +18,20 @@ std::vector<double> steps_of(const std::vector<double>& column) {
 }
 
 constexpr std::size_t most_looked_at = 1000;  // readings of a periodogram
+constexpr double most_turns = 200.0;          // that these span at most
 constexpr double lowest_order = 0.05, highest_order = 20.0;
 
-/// The readings less a line in C, of a part of the stream without gaps.
+/// The readings less a line in C, of the beginning of the stream. What is beyond `most_turns` is
+/// after a gap, and would make as many orders to look at as there are turns.
 struct Wave {
   std::vector<double> c_rad, x_mm;
   double turns = 0.0;
 
   explicit Wave(const ProbeStream& stream) {
-    const std::size_t n = std::min(stream.size(), most_looked_at);
+    std::size_t n = 0;
+    while (n < std::min(stream.size(), most_looked_at) &&
+           std::abs(stream.c_rad[n] - stream.c_rad.front()) <= most_turns * two_pi)
+      ++n;
     c_rad.assign(stream.c_rad.begin(), stream.c_rad.begin() + static_cast<std::ptrdiff_t>(n));
     x_mm.assign(stream.reading_mm.begin(),
                 stream.reading_mm.begin() + static_cast<std::ptrdiff_t>(n));

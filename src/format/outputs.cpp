@@ -147,8 +147,8 @@ void Outputs::may_write(const std::string& path, const std::string& schema) {
   checked_ = false;
 }
 
-void Outputs::may_begin(const std::string& path, std::string content) {
-  if (!path.empty()) places_.push_back({path, "", std::move(content)});
+void Outputs::may_begin(const std::string& path, std::string content, const std::string& schema) {
+  if (!path.empty()) places_.push_back({path, schema, std::move(content)});
   checked_ = false;
 }
 
@@ -203,9 +203,12 @@ std::string Outputs::objection(const Place& place) const {
   if (!platform::may_write(target)) return cannot(std::strerror(errno));
   if (force_ || fs::file_size(target, error) == 0) return "";
   if (place.begins && read_file(target) == *place.begins) return "";
-  if (place.begins) return "is there and may hold your changes: name another place, or use --force";
-  if (place.schema.empty()) return "";
-  const std::string found = schema_of_file(target);
+  const std::string found = place.schema.empty() ? "" : schema_of_file(target);
+  if (place.begins && found == place.schema)
+    return place.schema.empty()
+               ? "is there and may hold your changes: name another place, or use --force"
+               : "is there and may hold your readings or changes: name another place, or use "
+                 "--force";
   if (found == place.schema) return "";
   return (found.empty() ? "is there and was not written by TrueAxis"
                         : "is there and is another result (" + found + ")") +

@@ -66,9 +66,10 @@ class Outputs {
   void may_write(const std::string& path, const std::string& schema);
   /// The same for a file of the folder of the results.
   void may_write_in_folder(const std::string& name, const std::string& schema);
-  /// A file that whoever gets it then changes, a job: one that is there, not empty and not
-  /// `content` already is replaced only with `force`. It says no schema.
-  void may_begin(const std::string& path, std::string content);
+  /// A file that whoever gets it then changes, a job, or whose place may hold measured data, a
+  /// stream: one that is there, not empty and not `content` already is replaced only with `force`.
+  /// A job says no schema.
+  void may_begin(const std::string& path, std::string content, const std::string& schema = "");
   std::string in_folder(const std::string& name) const;  ///< its path
 
   const std::vector<std::string>& inputs() const { return inputs_; }  ///< all that is read

@@ -2,6 +2,8 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "interchange/formats.hpp"
 #include "trueaxis/error.hpp"
@@ -51,6 +53,21 @@ std::string text_attribute(hid_t object, const char* name) {
   }
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text;
+}
+
+/// The one number of an attribute: nothing where there is none, NaN where it is something else.
+std::optional<double> number_attribute(hid_t object, const char* name) {
+  if (H5Aexists(object, name) <= 0) return {};
+  const double no_number = std::nan("");
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), &H5Aclose);
+  if (!attribute.good()) return no_number;
+  const Handle type(H5Aget_type(attribute), &H5Tclose);
+  const Handle space(H5Aget_space(attribute), &H5Sclose);
+  if (!type.good() || !space.good() || H5Sget_simple_extent_npoints(space) != 1 ||
+      (H5Tget_class(type) != H5T_INTEGER && H5Tget_class(type) != H5T_FLOAT))
+    return no_number;
+  double value = 0.0;
+  return H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) >= 0 ? value : no_number;
 }
 
 /// Why the numbers are not in this file, or "".
@@ -120,7 +137,25 @@ class Hdf5 {
     if (!array.values.empty() &&
         H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) < 0)
       fail("cannot be read: it is incomplete, its check sum is wrong, or a filter is missing");
+    unpack(set, array);
     return array;
+  }
+
+  /// The numbers as netCDF packs them (CF 8.1, 2.5.1): what is missing becomes NaN, the others
+  /// packed × scale_factor + add_offset.
+  void unpack(hid_t set, NumberArray& array) {
+    for (const char* name : {"_FillValue", "missing_value"})
+      if (const auto missing = number_attribute(set, name))
+        std::ranges::replace(array.values, *missing, std::nan(""));
+    const auto scale = number_attribute(set, "scale_factor");
+    const auto offset = number_attribute(set, "add_offset");
+    if (!scale && !offset) return;
+    if ((scale && !std::isfinite(*scale)) || (offset && !std::isfinite(*offset)))
+      throw InputError(path_, "its data set " + array.name +
+                                  " has a scale_factor or add_offset that is not one number: "
+                                  "correct the attribute");
+    file_.notes.push_back(array.name + " is unpacked by its scale_factor and add_offset");
+    for (double& value : array.values) value = value * scale.value_or(1.0) + offset.value_or(0.0);
   }
 
   const std::string& path_;

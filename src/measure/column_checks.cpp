@@ -21,6 +21,7 @@ constexpr double rows_by_chance = 1e-3;
 constexpr double often = 0.3;  // share of the rows
 constexpr double many_steps = 10.0;
 constexpr double largest_machine_mm = 20e3;
+constexpr double thinnest_part_mm = 0.05;  // radius: it bends away from any probe
 
 /// Readings in a row that show the same value.
 struct Run {
@@ -186,6 +187,12 @@ std::string no_such_size(const ProbeStream& stream) {
           "{} reaches {:.4g} m, and no lathe is larger than {:.0f} m: check its unit and its "
           "decimal point",
           name, mm / mm_per_m, largest_machine_mm / mm_per_m);
+  if (const double mm = sizes[0].mm;
+      !face && stream.indication == Indication::absolute && mm > 0.0 && mm < thinnest_part_mm)
+    return fmt::format(
+        "X_M stays below {:.3g} µm, and no part that a probe touches is that thin: check its unit. "
+        "For a gauge write '# reading: relative'",
+        1e3 * thinnest_part_mm);
   return "";
 }
 

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "base/counted.hpp"
 #include "base/text.hpp"
 #include "format/csv_text.hpp"
-#include "recording/column_names.hpp"
+#include "math/statistics.hpp"
+#include "recording/columns.hpp"
 #include "recording/instant.hpp"
 #include "recording/recording.hpp"
 
@@ -62,57 +64,89 @@ bool unwrap_degrees(std::vector<Sample>& samples) {
   return any;
 }
 
-/// Of an angle that was made to run on: steps of a third of a turn may have been two thirds.
-void refuse_long_steps(const std::string& name, const std::vector<Sample>& samples, bool runs_on,
-                       Recording& out) {
-  if (!runs_on) return;
+/// The speed of an angle that was made to run on, as most of its steps show it.
+double deg_per_s_of(const std::vector<Sample>& samples) {
+  std::vector<double> speeds;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    if (const double took_s = samples[i].time_s - samples[i - 1].time_s; took_s > 0.0)
+      speeds.push_back(std::abs(samples[i].value - samples[i - 1].value) / took_s);
+  return speeds.empty() ? 0.0 : median(std::move(speeds));
+}
+
+/// Of an angle that was made to run on: steps of a third of a turn may have been two thirds, and a
+/// gap in which the spindle makes more than half a turn may hide a whole one. At rest a control
+/// sends no samples, and C then goes on from where it was.
+void refuse_long_steps(const std::string& name, const std::vector<Sample>& samples,
+                       double usual_deg_per_s, Recording& out) {
+  constexpr double at_rest_deg = 1.8;  // one gap of whole turns in a hundred shows less
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    if (std::abs(samples[i].value - samples[i - 1].value) <= 120.0) continue;
-    out.wrong.push_back({"", samples[i].line, 0,
-                         name + " goes on by more than 120° between two samples, so that its sense "
-                                "is not sure: record it more often"});
+    const double step_deg = std::abs(samples[i].value - samples[i - 1].value);
+    const double took_s = samples[i].time_s - samples[i - 1].time_s;
+    const double expected_deg = usual_deg_per_s * took_s;
+    if (step_deg > 120.0)
+      out.wrong.push_back({"", samples[i].line, 0,
+                           name + " goes on by more than 120° between two samples, so that its "
+                                  "sense is not sure: record it more often"});
+    else if (expected_deg > 180.0 && step_deg > at_rest_deg)
+      out.wrong.push_back(
+          {"", samples[i].line, 0,
+           fmt::format("{} has no sample for {:.3g} s, in which the spindle makes {:.2g} "
+                       "revolutions at its usual speed: record it without a gap",
+                       name, took_s, expected_deg / 360.0)});
+    else
+      continue;
     return;
   }
 }
 
+/// Samples of a channel come in the order of its clock.
+void refuse_falling_clock(const std::string& name, const std::vector<Sample>& samples,
+                          Recording& out) {
+  const auto falls = std::ranges::adjacent_find(
+      samples, [](const Sample& a, const Sample& b) { return b.time_s < a.time_s; });
+  if (falls == samples.end()) return;
+  out.wrong.push_back({"", std::next(falls)->line, 0,
+                       fmt::format("the clock of {} goes back by {:.3g} s: cut the log here, or "
+                                   "record again",
+                                   name, falls->time_s - std::next(falls)->time_s)});
+}
+
 }  // namespace
 
-bool read_camonitor(const RecordedText& text, Recording& out) {
+bool read_camonitor(const RecordedText& text, const ColumnsSaid& said, Recording& out) {
   Channels channels;
   std::size_t others = 0, samples = 0;
   for (std::size_t i = 0; i < text.lines.size(); ++i) {
     const std::string_view line = trimmed(text.lines[i]);
+    if (line.starts_with('#')) take_comment(line, i + 1, out);
     if (line.empty() || line.starts_with('#')) continue;
     (read_sample(line, i + 1, channels) ? samples : others) += 1;
   }
   if (samples < 4 || others > samples / 10) return false;
-  // The readings are never interpolated: what lies between two of them is not known.
-  const auto reading = std::ranges::find_if(channels, [](const auto& channel) {
-    const auto named = role_of_name(channel.first);
-    return named && (named->role == RecordedRole::x || named->role == RecordedRole::face);
-  });
-  const auto fastest = reading != channels.end()
-                           ? reading
-                           : std::ranges::max_element(channels, {}, [](const auto& channel) {
-                               return channel.second.size();
-                             });
+  for (const auto& [name, of] : channels) out.columns.push_back({name, "", name, true});
+  // The readings are never interpolated: what lies between two of them is not known. Without a
+  // channel of readings the log is refused, whatever the instants.
+  const std::size_t reading = column_of_readings(out, said).value_or(0);
+  const auto base = std::next(channels.begin(), static_cast<std::ptrdiff_t>(reading));
   std::string joined;
   for (auto& [name, of] : channels) {
+    refuse_falling_clock(name, of, out);
     std::ranges::stable_sort(of, {}, &Sample::time_s);
-    if (&of != &fastest->second) add_to_list(joined, name);
-    const bool runs_on = unwrap_degrees(of);
-    refuse_long_steps(name, of, runs_on, out);
-    if (runs_on)
-      out.notes.push_back(name +
-                          " jumps by a revolution: read as an angle in degrees that runs on");
-    out.columns.push_back({name, "", name, true});
+    if (&of != &base->second) add_to_list(joined, name);
+    if (!unwrap_degrees(of)) continue;
+    const double deg_per_s = deg_per_s_of(of);
+    refuse_long_steps(name, of, deg_per_s, out);
+    out.notes.push_back(
+        fmt::format("{} jumps by a revolution: read as an angle in degrees that "
+                    "runs on, at {:.4g} rpm if no turn is missed between samples",
+                    name, deg_per_s / 6.0));
   }
   out.columns.push_back({"t", "s", "t", true});
 
   std::vector<std::size_t> from(channels.size(), 0);
   std::size_t outside = 0;
-  const double start_s = fastest->second.front().time_s;
-  for (const Sample& sample : fastest->second) {
+  const double start_s = base->second.front().time_s;
+  for (const Sample& sample : base->second) {
     std::vector<double> row;
     std::size_t k = 0;
     for (const auto& [name, of] : channels) row.push_back(value_at(of, sample.time_s, from[k++]));
@@ -127,12 +161,12 @@ bool read_camonitor(const RecordedText& text, Recording& out) {
   }
   if (!joined.empty())
     out.notes.push_back(joined + " interpolated linearly in time at the instants of " +
-                        fastest->first);
+                        base->first);
   if (outside > 0)
     out.notes.push_back(
         fmt::format("{} samples of {} lie before the first or after the last of another "
                     "channel and are excluded",
-                    outside, fastest->first));
+                    outside, base->first));
   if (others > 0)
     out.notes.push_back(counted(others, "line without a number (disconnected, alarms) is",
                                 "lines without a number (disconnected, alarms) are") +

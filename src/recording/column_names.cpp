@@ -52,6 +52,7 @@ UnitKind quantity_of(RecordedRole role) {
 
 std::optional<NamedRole> role_of_name(std::string_view name) {
   const auto look_up = [](std::string_view text) -> std::optional<NamedRole> {
+    if (trimmed(text) == "T") return {};  // a tool of a control, a temperature of a logger
     const auto words = read_header_name(text);
     return words ? role_of(*words) : std::nullopt;
   };

@@ -27,6 +27,23 @@ std::string language_of(const Recording& recording) {
   return "";
 }
 
+/// "mm" of "mm dia".
+std::string without_dia(const std::string& unit) {
+  return unit.ends_with(" dia") ? unit.substr(0, unit.size() - 4) : unit;
+}
+
+/// A unit that `--columns` gives must not contradict the file's own; a file may leave out `dia`.
+void expect_unit_of_file(const Recording& recording, const TakenColumn& taken,
+                         const std::string& said, std::vector<std::string>& unclear) {
+  const auto stated =
+      stream_unit(taken.role, recording.columns[taken.column].unit, language_of(recording));
+  if (stated && *stated != said && *stated != without_dia(said))
+    unclear.push_back(
+        fmt::format("{} has the unit [{}] in the file, but [{}] in --columns: correct "
+                    "one of them",
+                    described(recording, taken.column), *stated, said));
+}
+
 /// The unit of a column as a stream writes it; adds to `unclear` what is not clear.
 void take_unit(const Recording& recording, TakenColumn& taken,
                const std::optional<std::string>& said, std::vector<std::string>& unclear) {
@@ -38,9 +55,14 @@ void take_unit(const Recording& recording, TakenColumn& taken,
     return;
   }
   if (const auto known = stream_unit(taken.role, unit, language_of(recording))) {
-    taken.unit = *known;
-    if (known->ends_with(" dia")) {
-      taken.unit = known->substr(0, known->size() - 4);
+    taken.unit = without_dia(*known);
+    if (said) expect_unit_of_file(recording, taken, *known, unclear);
+    if (taken.unit.size() < known->size()) {
+      if (taken.diameter == false)
+        unclear.push_back(
+            fmt::format("{} is a radius by its name, but its unit is that of a "
+                        "diameter: correct one of them",
+                        described(recording, taken.column)));
       taken.diameter = true;
     }
   } else {
@@ -67,6 +89,11 @@ ColumnsSaid::Item with_unit_split(const Recording& recording, ColumnsSaid::Item 
       trimmed(std::string_view(item.column).substr(open + 1, item.column.size() - open - 2));
   item.column = name;
   return item;
+}
+
+/// The column that an item names, without the unit that is written after it.
+std::optional<std::size_t> column_said(const Recording& recording, const ColumnsSaid::Item& item) {
+  return find_column(recording, with_unit_split(recording, item).column);
 }
 
 std::vector<TakenColumn> as_said(const Recording& recording, const ColumnsSaid& said,
@@ -245,10 +272,47 @@ bool are_points(const Recording& recording) {
 
 }  // namespace
 
+namespace {
+
+/// Whether lengths and angles have units in the file. TrueAxis' own names need none (stream.md).
+bool states_units(const Recording& recording, const std::vector<TakenColumn>& taken) {
+  return std::ranges::all_of(taken, [&](const TakenColumn& column) {
+    const std::string& name = recording.columns[column.column].name;
+    return column.role >= RecordedRole::t || (column.unit_said && name != "X_M" && name != "Z_M");
+  });
+}
+
+/// A time without a unit among columns that state theirs is as often of milliseconds.
+void ask_for_unit_of_time(const Recording& recording, const std::vector<TakenColumn>& taken,
+                          std::vector<std::string>& unclear) {
+  const auto t = std::ranges::find(taken, RecordedRole::t, &TakenColumn::role);
+  if (t == taken.end() || t->unit_said || recording.of_numbers ||
+      !recording.columns[t->column].is_number || !states_units(recording, taken))
+    return;
+  unclear.push_back(
+      fmt::format("{} states no unit, as the other columns do: write t={}[s] or "
+                  "t={}[ms] in --columns",
+                  described(recording, t->column), t->column + 1, t->column + 1));
+}
+
+}  // namespace
+
+std::optional<std::size_t> column_of_readings(const Recording& recording, const ColumnsSaid& said) {
+  for (const RecordedRole role : {RecordedRole::face, RecordedRole::x}) {
+    for (const ColumnsSaid::Item& item : said.items)
+      if (role_of_word(item.role) == role) return column_said(recording, item);
+    for (std::size_t k = 0; said.items.empty() && k < recording.columns.size(); ++k)
+      if (const auto named = role_of_name(recording.columns[k].name); named && named->role == role)
+        return k;
+  }
+  return {};
+}
+
 std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsSaid& said,
                                       std::vector<std::string>& unclear) {
   std::vector<TakenColumn> taken =
       said.items.empty() ? as_named(recording, unclear) : as_said(recording, said, unclear);
+  ask_for_unit_of_time(recording, taken, unclear);
   const auto has = [&](RecordedRole role) {
     return std::ranges::find(taken, role, &TakenColumn::role) != taken.end();
   };
@@ -283,6 +347,8 @@ std::string columns_suggested(const Recording& recording) {
   if (named_so(face)) items = {{face, ""}, {c, ""}, {x, ""}};
   for (const RecordedRole role : {t, pass, setup})
     if (named_so(role)) items.emplace_back(role, "");
+  const bool states_some_unit = std::ranges::any_of(
+      recording.columns, [](const auto& column) { return !column.unit.empty(); });
   for (const bool vague : {false, true})
     for (std::size_t k = 0; k < recording.columns.size(); ++k) {
       const auto named = role_of_name(recording.columns[k].name);
@@ -299,6 +365,8 @@ std::string columns_suggested(const Recording& recording) {
         item->second += fmt::format("[{}]", default_unit(role));
       else if (!unit.empty() && !said)
         item->second += "[" + meant.value_or("…") + "]";
+      else if (unit.empty() && role == t && states_some_unit)
+        item->second += "[…]";
     }
   std::string text;
   for (const auto& [role, column] : items)

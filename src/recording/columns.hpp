@@ -46,6 +46,10 @@ std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsS
 /// The column that a name of the header or a number means.
 std::optional<std::size_t> find_column(const Recording& recording, const std::string& name);
 
+/// The column that holds the readings, as `--columns` or, without it, the names tell: Z_M of a
+/// face, else X.
+std::optional<std::size_t> column_of_readings(const Recording& recording, const ColumnsSaid& said);
+
 /// LinuxCNC's (PROBEOPEN): nine numbers X Y Z A B C U V W of six decimals, no names; X is a radius.
 bool is_probe_log(const Recording& recording);
 

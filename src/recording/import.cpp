@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <optional>
 
@@ -27,9 +28,10 @@ namespace {
 /// What is not clear: in sentences, and what the command that would read the file must say for it.
 struct Unclear {
   std::vector<std::string> why;
-  bool columns = false;     ///< which column is which
-  bool convention = false;  ///< radius or diameter
-  bool decimal = false;     ///< a decimal mark that may part thousands as well
+  bool columns = false;                    ///< which column is which
+  bool convention = false;                 ///< radius or diameter
+  std::optional<bool> diameter_by_file{};  ///< what the file says of that, against the caller
+  bool decimal = false;                    ///< a decimal mark that may part thousands as well
 };
 
 /// What a recording's own options are as words of a command.
@@ -62,12 +64,13 @@ std::string command_suggested(const std::string& path, const Recording& recordin
   StreamReadOptions read = options.read;
   if (unclear.convention) read.diameter.reset();
   add(words_of(read));
-  if (unclear.convention && is_probe_log(recording)) add({"--radius"});
+  const bool either = unclear.convention && !unclear.diameter_by_file && !is_probe_log(recording);
+  if (unclear.convention && !either)
+    add({unclear.diameter_by_file.value_or(false) ? "--diameter" : "--radius"});
   if (!typed)
     add({"-o", (path == "-" ? "my" : std::filesystem::path(path).stem().string()) + "_stream.csv"});
-  if (unclear.convention && !is_probe_log(recording)) add({"--diameter"});
-  return shell_line(words) +
-         (unclear.convention && !is_probe_log(recording) ? " (or --radius)" : "");
+  if (either) add({"--diameter"});
+  return shell_line(words) + (either ? " (or --radius)" : "");
 }
 
 /// The same as the lines of a job's [[reference]].
@@ -76,8 +79,10 @@ std::string lines_suggested(const Recording& recording, const RecordingOptions& 
   std::string text = "columns = '" + columns_to_say(recording, options, unclear) + "'";
   if (options.skip > 0) text += fmt::format(", skip_lines = {}", options.skip);
   if (unclear.convention)
-    text += is_probe_log(recording) ? ", x_convention = \"radius\""
-                                    : ", x_convention = \"diameter\" (or \"radius\")";
+    text += unclear.diameter_by_file == true ? ", x_convention = \"diameter\""
+            : unclear.diameter_by_file == false || is_probe_log(recording)
+                ? ", x_convention = \"radius\""
+                : ", x_convention = \"diameter\" (or \"radius\")";
   return text;
 }
 
@@ -120,6 +125,27 @@ std::optional<bool> convention_in(const std::vector<std::string>& metadata) {
   return {};
 }
 
+/// Whether X is a diameter, as its name, a comment of the file or the caller says; a contradiction
+/// of the file with itself is thrown, one with the caller is in `unclear`.
+std::optional<bool> convention_of(const std::optional<bool>& by_name,
+                                  const std::optional<bool>& by_comment, const std::string& path,
+                                  const StreamReadOptions& read, Unclear& unclear) {
+  const auto word = [](bool diameter) { return diameter ? "a diameter" : "a radius"; };
+  if (by_name && by_comment && by_name != by_comment)
+    throw InputError(path, fmt::format("X is {} by its name, but {} by the comment x_convention: "
+                                       "correct one of them",
+                                       word(*by_name), word(*by_comment)));
+  const std::optional<bool> by_file = by_name ? by_name : by_comment;
+  if (by_file && read.diameter && by_file != read.diameter) {
+    unclear.why.push_back(fmt::format(
+        "X is {} by {}, but {} says {}: correct one of them", word(*by_file),
+        by_name ? "its name" : "the comment x_convention", read.caller(), word(*read.diameter)));
+    unclear.convention = true;
+    unclear.diameter_by_file = by_file;
+  }
+  return by_file ? by_file : read.diameter;
+}
+
 /// How the columns were read, in words.
 void describe(const Recording& recording, const std::vector<TakenColumn>& taken, bool diameter,
               std::vector<std::string>& notes) {
@@ -131,7 +157,7 @@ void describe(const Recording& recording, const std::vector<TakenColumn>& taken,
                           (whole.empty() ? "" : " (" + whole + ")"));
     if (column.unit_typed && !column.unit.empty()) text += " in " + column.unit;
     if (column.role == RecordedRole::x) text += diameter ? ", a diameter" : ", a radius";
-    if (!column.unit_said && !column.unit.empty())
+    if (!column.unit_said && !column.unit.empty() && recording.columns[column.column].is_number)
       add_to_list(supposed, std::string(word_of(column.role)) + " in " + column.unit);
   }
   notes.insert(notes.begin(), "read as " + recording.producer + ": " + text);
@@ -171,6 +197,11 @@ bool is_own_header(const RecordedText& text) {
     if (content.empty()) continue;
     CsvDiagnostics ignored("", 0);
     const CsvHeader header = csv_parse_header(content, 1, ignored);
+    if (std::ranges::any_of(recorded_columns(csv_fields(content, header.separator)),
+                            [](const RecordedColumn& column) {
+                              return column.unit == "m" && column.whole.ends_with("_m");
+                            }))
+      return false;  // "X_m" in metres
     return std::ranges::any_of(header.columns, [](const CsvColumn& column) {
       return column.name.starts_with("X_M") || column.name == "Z_M";
     });
@@ -188,8 +219,8 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
   const RecordedText text(numbers ? "" : bytes);
   const ColumnsSaid said =
       options.columns.empty() ? ColumnsSaid{} : read_columns_said(options.columns);
-  const Recording recording = numbers ? recorded_numbers(path, bytes)
-                                      : recognise_recording(text, path, options.skip, said.decimal);
+  const Recording recording =
+      numbers ? recorded_numbers(path, bytes) : recognise_recording(text, path, options.skip, said);
   Unclear unclear;
   if (said.items.empty()) {
     unclear.why = recording.unclear;
@@ -199,17 +230,12 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
   unclear.columns = !unclear.why.empty();
   const auto x = std::ranges::find(taken, RecordedRole::x, &TakenColumn::role);
   const bool points = std::ranges::find(taken, RecordedRole::y, &TakenColumn::role) != taken.end();
-  std::optional<bool> diameter = x == taken.end() ? std::nullopt : x->diameter;
-  const bool contradicted =
-      diameter && options.read.diameter && *diameter != *options.read.diameter;
-  if (contradicted)
-    unclear.why.push_back(std::string("X is a ") + (*diameter ? "diameter" : "radius") +
-                          " by its name, but " + options.read.caller() + " says a " +
-                          (*diameter ? "radius" : "diameter") + ": correct one of them");
-  if (!diameter) diameter = options.read.diameter;
-  if (!diameter) diameter = convention_in(recording.metadata);
+  const TakenColumn none{RecordedRole::x};
+  std::optional<bool> diameter =
+      convention_of(x == taken.end() ? none.diameter : x->diameter,
+                    convention_in(recording.metadata), path, options.read, unclear);
   if (!diameter && points) diameter = false;
-  unclear.convention = !diameter || contradicted;
+  unclear.convention = unclear.convention || !diameter;
   if (!diameter && x != taken.end())
     unclear.why.emplace_back(
         "X may be a radius or a diameter, and nothing in the file tells: say --radius or "
@@ -225,6 +251,7 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
   CsvDiagnostics diagnostics(path, options.read.max_diagnostics);
   for (const Diagnostic& wrong : recording.wrong)
     diagnostics.add(wrong.line, wrong.column, wrong.message, "row");
+  csv_refuse_keys_between(recording.keys, recording.rows(), diagnostics);
   const StreamRows rows =
       stream_rows(recording, text, taken, *diameter, options.read.drop_invalid, diagnostics);
 
@@ -263,8 +290,11 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
                       std::back_inserter(wrong));
   std::ranges::stable_sort(wrong, {}, &Diagnostic::line);
   if (!wrong.empty()) {
-    const std::string remedy = rows.invalid.remedy(
-        path, options.read, recording_words(options.columns, options.skip), rows.rows.size());
+    const std::string remedy =
+        options.read.drop_invalid
+            ? ""
+            : rows.invalid.remedy(path, options.read,
+                                  recording_words(options.columns, options.skip), rows.rows.size());
     if (!remedy.empty()) wrong.push_back({path, 0, 0, remedy});
     throw InputError(std::move(wrong));
   }
@@ -312,17 +342,23 @@ ProbeStream read_recording(const std::string& path, const RecordingOptions& opti
 }
 
 Recording recognise_recording(const RecordedText& text, const std::string& path, std::size_t skip,
-                              std::optional<char> decimal) {
-  for (const auto read : {&read_probe_log, &read_twincat_scope, &read_camonitor, &read_words}) {
+                              const ColumnsSaid& said) {
+  const std::optional<char> decimal = said.decimal;
+  const auto camonitor = [&](const RecordedText& of, Recording& out) {
+    return read_camonitor(of, said, out);
+  };
+  using Reader = std::function<bool(const RecordedText&, Recording&)>;
+  for (const Reader& read : {Reader(read_probe_log), Reader(read_twincat_scope), Reader(camonitor),
+                             Reader(read_words)}) {
     Recording recording;
     if (skip == 0 && !decimal && read(text, recording)) return recording;
   }
   Recording recording;
   if (read_table(text, skip, decimal, recording)) return recording;
-  const char* said = !decimal          ? ""
-                     : *decimal == ',' ? " with decimal commas"
-                                       : " with decimal points";
-  throw InputError(path, std::string("holds no table of numbers") + said +
+  const char* marks = !decimal          ? ""
+                      : *decimal == ',' ? " with decimal commas"
+                                        : " with decimal points";
+  throw InputError(path, std::string("holds no table of numbers") + marks +
                              ": two rows of two numbers are the least");
 }
 

@@ -20,6 +20,7 @@ std::optional<int> number_before(std::string_view& text, char until) {
 
 std::optional<double> instant_s(std::string_view text) {
   double days_s = 0.0;
+  if (text.ends_with('Z')) text.remove_suffix(1);  // UTC
   const std::size_t date_end = text.find_first_of(" T");
   if (date_end != std::string_view::npos) {
     const auto year = number_before(text, '-'), month = number_before(text, '-');

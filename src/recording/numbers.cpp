@@ -25,6 +25,22 @@ Recording recorded_numbers(const std::string& path, const std::string& bytes) {
                                     array.unusable.empty() ? fmt::format("{} rows", array.rows)
                                                            : array.unusable));
   if (!left.empty()) out.notes.push_back(fmt::format("not among the {} rows: {}", longest, left));
+  const auto own_name = [](const NumberArray& array) {
+    return std::string_view(array.name).substr(array.name.find_last_of('/') + 1);
+  };
+  for (const NumberArray& shorter : file.arrays) {
+    const auto of_same_name = std::ranges::find_if(file.arrays, [&](const NumberArray& array) {
+      return array.unusable.empty() && array.rows == longest &&
+             own_name(array) == own_name(shorter);
+    });
+    if (!shorter.unusable.empty() || shorter.rows == longest || of_same_name == file.arrays.end())
+      continue;
+    out.unclear.push_back(
+        fmt::format("{} ({} rows) and {} ({} rows) could both be {}: say which in "
+                    "--columns, or write all passes into one array",
+                    shorter.name, shorter.rows, of_same_name->name, longest, own_name(shorter)));
+    break;
+  }
   std::vector<NumberColumn> columns = number_columns(file);
   std::erase_if(columns, [&](const NumberColumn& column) { return column.array->rows != longest; });
   for (const NumberColumn& column : columns) {

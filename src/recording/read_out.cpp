@@ -171,8 +171,8 @@ ImportedReadOut import_read_out(const std::string& path, char axis,
   const RecordedText text(numbers ? "" : bytes);
   const ColumnsSaid said =
       options.columns.empty() ? ColumnsSaid{} : read_columns_said(options.columns);
-  const Recording recording = numbers ? recorded_numbers(path, bytes)
-                                      : recognise_recording(text, path, options.skip, said.decimal);
+  const Recording recording =
+      numbers ? recorded_numbers(path, bytes) : recognise_recording(text, path, options.skip, said);
   Columns columns(recording, axis, said);
   if (recording.in_thousands && !said.decimal)
     columns.unclear.emplace_back(

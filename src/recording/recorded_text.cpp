@@ -100,13 +100,12 @@ RecordedColumn recorded_column(std::string_view field) {
     split_at(field.find_last_not_of(" /,_", field.size() - degree.size() - 1) + 1, degree);
     return column;
   }
-  // "C / deg", "X in mm", "angle, rad", "time_s"; X_M is not an X in metres, and "in" may be a
-  // word.
+  // "C / deg", "X in mm", "angle, rad", "time_s", "X_in"; X_M is not an X in metres.
   const std::size_t at = field.find_last_of(" /,_");
   if (at != std::string_view::npos && at > 0) {
     const std::string_view unit = field.substr(at + 1);
     const bool letter = unit.size() == 1 && field[at] == '_' && unit != "s";
-    if (is_unit_word(unit) && folded(unit) != "in" && !letter) {
+    if (is_unit_word(unit) && !letter) {
       std::size_t end = field.find_last_not_of(" /,_", at);
       end = end == std::string_view::npos ? 0 : end + 1;
       if (field.substr(0, end).ends_with(" in")) end -= 3;
@@ -116,6 +115,25 @@ RecordedColumn recorded_column(std::string_view field) {
   }
   column.name = field;
   return column;
+}
+
+std::vector<RecordedColumn> recorded_columns(const std::vector<std::string_view>& header) {
+  std::vector<RecordedColumn> columns;
+  for (const std::string_view field : header) columns.push_back(recorded_column(field));
+  const auto in_metres = [](const RecordedColumn& column) {
+    return column.unit.empty() && column.name.size() > 2 && column.name.ends_with("_m");
+  };
+  const auto has_suffix = [](const RecordedColumn& column) {
+    return !column.unit.empty() && column.whole.ends_with("_" + column.unit);
+  };
+  if (std::ranges::count_if(columns, in_metres) < 2 && std::ranges::none_of(columns, has_suffix))
+    return columns;
+  for (RecordedColumn& column : columns) {
+    if (!in_metres(column)) continue;
+    column.unit = "m";
+    column.name.resize(column.name.size() - 2);
+  }
+  return columns;
 }
 
 }  // namespace trueaxis

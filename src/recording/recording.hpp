@@ -8,9 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/files/stream_csv_metadata.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
+
+struct ColumnsSaid;
 
 /// The text of a file of another program: UTF-8 whatever it was saved as, cut into lines.
 struct RecordedText {
@@ -44,6 +47,7 @@ struct Recording {
   bool in_thousands = false;          ///< every decimal mark may as well part thousands: 20.100
   std::vector<std::string> notes;     ///< what was passed over or joined, in sentences
   std::vector<std::string> metadata;  ///< lines "# key: value" that are handed on as they are
+  std::vector<CsvKeyBelow> keys;      ///< of stream.md among these
   std::deque<std::string> made;       ///< text of cells that are not in a file
   std::vector<std::string> unclear;   ///< what a caller must say with the columns, in sentences
   std::vector<Diagnostic> wrong;      ///< rows that do not fit; no file named
@@ -62,17 +66,26 @@ struct Recording {
 /// A cell read as a number, its decimal comma a point. False if it is not a number.
 bool recorded_number(std::string_view cell, char decimal, double& value);
 
-/// "name", "unit" of "Angle (°)", "C[deg]", "X / mm", "X in mm", "X mm".
+/// "name", "unit" of "Angle (°)", "C[deg]", "X / mm", "X in mm", "X mm", "X_in".
 RecordedColumn recorded_column(std::string_view header_field);
+/// The same of a whole header, where "X_m" next to "C_rad" or "Z_m" is an X in metres.
+std::vector<RecordedColumn> recorded_columns(const std::vector<std::string_view>& header);
+
+/// Takes a line without readings: what says a unit or a convention of the whole file ("Messung in
+/// Zoll", "G20") must not be passed over.
+void take_title(std::string_view line, Recording& out);
+/// Takes a comment line.
+void take_comment(std::string_view line, std::size_t number, Recording& out);
 
 // Each reads a layout into `out`; false if the text is not of its kind. A text that is of the
 // kind and broken leaves the places in `wrong`.
 
 /// Beckhoff TwinCAT Scope's text export: keyed rows, then "TICKS;v1;v2;…".
 bool read_twincat_scope(const RecordedText& text, Recording& out);
-/// EPICS camonitor: "PV date time value", channels interleaved and of unequal rates. The slower
-/// ones are interpolated linearly at the instants of the fastest.
-bool read_camonitor(const RecordedText& text, Recording& out);
+/// EPICS camonitor: "PV date time value", channels interleaved and of unequal rates. The others
+/// are interpolated linearly at the instants of the readings, the channel that `said` or a name
+/// says they are.
+bool read_camonitor(const RecordedText& text, const ColumnsSaid& said, Recording& out);
 /// The log of a probing program that TrueAxis wrote: its head says all. Rows are touch points, or
 /// what halsampler -t writes, appended to it.
 bool read_probe_log(const RecordedText& text, Recording& out);
@@ -98,7 +111,7 @@ bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> 
 
 /// A text in whichever of these layouts it has. @throws InputError if it holds no table of numbers
 Recording recognise_recording(const RecordedText& text, const std::string& path, std::size_t skip,
-                              std::optional<char> decimal);
+                              const ColumnsSaid& said);
 
 /// "1 Nr., 2 Angle(°), 3 X": what there is to choose from; of a column without a name its number.
 std::string columns_listed(const Recording& recording);

@@ -70,6 +70,7 @@ class RowMaker {
 
   /// Rows without a value in a cell that is needed.
   const CsvInvalidRows& invalid() const { return invalid_; }
+  bool passes_midnight() const { return midnights_ > 0; }
 
   /// False where a cell is wrong; the numbers of a good row are appended.
   bool row(std::size_t i, std::vector<double>& out) {
@@ -131,8 +132,15 @@ class RowMaker {
         return wrong(i, column,
                      "t: " + csv_quoted(cell) + " is not a time of day: write 13:55:48.325",
                      "instant");
-      if (first_s_ != first_s_) first_s_ = *at_s;
-      return parse_number(fmt::format("{:.9g}", *at_s - first_s_), value);  // as it is written
+      constexpr double day_s = 86400.0;
+      if (first_s_ != first_s_) first_s_ = last_s_ = *at_s;
+      double now_s = *at_s + day_s * midnights_;
+      if (last_s_ - now_s > 0.5 * day_s && cell.find('-') == std::string_view::npos) {
+        ++midnights_;
+        now_s += day_s;
+      }
+      last_s_ = now_s;
+      return parse_number(fmt::format("{:.9g}", now_s - first_s_), value);  // as it is written
     }
     if (recording_.number(i, column.column, value)) return true;
     if (cell.empty())
@@ -163,7 +171,8 @@ class RowMaker {
   bool diameter_, drop_invalid_;
   CsvDiagnostics& diagnostics_;
   bool points_;
-  double first_s_ = std::nan("");
+  double first_s_ = std::nan(""), last_s_ = 0.0;
+  int midnights_ = 0;  ///< that a time of day without a date has passed
   CsvInvalidRows invalid_;
 };
 
@@ -203,6 +212,8 @@ StreamRows stream_rows(const Recording& recording, const RecordedText& text,
     out.rows.push_back(i);
     out.lines.push_back(recording.lines[i]);
   }
+  if (maker.passes_midnight())
+    out.notes.emplace_back("the time of day passes midnight: t goes on with the next day");
   out.invalid = maker.invalid();
   if (drop_invalid && out.invalid.any()) {
     out.notes.push_back(out.invalid.left_out());

@@ -5,11 +5,11 @@
 #include <map>
 #include <optional>
 
+#include "base/counted.hpp"
 #include "base/text.hpp"
 #include "format/csv_text.hpp"
-#include "format/folded.hpp"
 #include "format/units.hpp"
-#include "recording/header_words.hpp"
+#include "recording/column_names.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {
@@ -91,30 +91,6 @@ bool is_unit_row(const std::vector<std::string_view>& fields) {
   return any;
 }
 
-/// A title that says a unit or a convention of the whole table must not be passed over.
-void note_convention(std::string_view line, Recording& out) {
-  const std::string text = folded(line);
-  const auto says = [](std::string_view word) {
-    const auto name = read_header_name(word);
-    const auto unit = unit_of_word(word);
-    return (name &&
-            (name->meaning == HeaderMeaning::radius || name->meaning == HeaderMeaning::diameter) &&
-            word.size() > 1) ||
-           (unit == "in" && word.size() > 2) || word.starts_with("unit") ||
-           word.starts_with("einheit") || word.starts_with("durchmesser");
-  };
-  for (std::size_t at = 0; at < text.size();) {
-    constexpr std::string_view between = " \t:;,|=()[]\"";
-    const std::size_t end = std::min(text.find_first_of(between, at), text.size());
-    if (says(std::string_view(text).substr(at, end - at))) {
-      out.unclear.push_back("a line above the table says " + csv_quoted(line) +
-                            ": say in --columns what the columns are, with their units");
-      return;
-    }
-    at = end + 1;
-  }
-}
-
 /// Names and units of the columns from the lines above the first row.
 void read_names(const RecordedText& text, std::size_t skip, std::size_t first, const Layout& layout,
                 Recording& out) {
@@ -133,7 +109,7 @@ void read_names(const RecordedText& text, std::size_t skip, std::size_t first, c
   }
   if (names) {
     split(text.lines[*names], layout.separator, fields);
-    for (const std::string_view field : fields) out.columns.push_back(recorded_column(field));
+    out.columns = recorded_columns(fields);
   }
   out.columns.resize(std::max(layout.fields, out.columns.size()));
   for (std::size_t k = 0; k < std::min(units.size(), out.columns.size()); ++k) {
@@ -149,11 +125,11 @@ void read_names(const RecordedText& text, std::size_t skip, std::size_t first, c
   for (std::size_t i = skip; i < names.value_or(first); ++i) {
     const std::string_view line = trimmed(text.lines[i]);
     if (is_comment(line)) {
-      out.metadata.emplace_back(line);
+      take_comment(text.lines[i], i + 1, out);
     } else if (line.find_first_not_of(";,\t |\"") != std::string_view::npos &&
                !line.starts_with("sep=")) {
       add_to_list(titles, csv_quoted(line));
-      note_convention(line, out);
+      take_title(line, out);
     }
   }
   if (!titles.empty()) out.notes.push_back("lines above the table are passed over: " + titles);
@@ -176,6 +152,23 @@ void drop_empty_columns(Recording& out) {
     for (std::size_t k = 0; k < used; ++k) kept.push_back(out.cell(i, k));
   out.cells = std::move(kept);
   out.columns.resize(used);
+}
+
+enum class HeaderAgain { no, same, another };
+
+/// Whether a row has names in the place of numbers, as where a logger begins anew.
+HeaderAgain header_again(const std::vector<std::string_view>& fields, const Recording& out) {
+  if (numbers_in(fields, '.') + numbers_in(fields, ',') > 0) return HeaderAgain::no;
+  std::size_t same = 0, named = 0, filled = 0;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const std::string_view field = trimmed(fields[k]);
+    filled += field.empty() ? 0 : 1;
+    same += !field.empty() && k < out.columns.size() && field == out.columns[k].whole ? 1 : 0;
+    named += role_of_name(recorded_column(field).name) ? 1 : 0;
+  }
+  return filled > 1 && same == filled ? HeaderAgain::same
+         : named > 1                  ? HeaderAgain::another
+                                      : HeaderAgain::no;
 }
 
 /// Whether every decimal mark of a table may also separate thousands: after one to three digits,
@@ -218,7 +211,7 @@ bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> 
   while (first < text.lines.size() && !is_row(first)) ++first;
   read_names(text, skip, first, *layout, out);
   const std::size_t columns = out.columns.size();
-  std::size_t missing = 0;
+  std::size_t missing = 0, repeated = 0;
   bool after_gap = false;
   for (std::size_t i = first; i < text.lines.size(); ++i) {
     const std::string_view line = trimmed(text.lines[i]);
@@ -229,7 +222,16 @@ bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> 
     split(text.lines[i], layout->separator, fields);
     // "#DIV/0!;12,5;…" is a row of a spreadsheet, no comment.
     if (is_comment(line) && (layout->separator == ' ' || fields.size() < columns)) {
-      out.metadata.emplace_back(line);
+      take_comment(text.lines[i], i + 1, out);
+      continue;
+    }
+    if (const HeaderAgain again = header_again(fields, out); again != HeaderAgain::no) {
+      if (again == HeaderAgain::another)
+        out.wrong.push_back({"", i + 1, 1,
+                             "is another header than that of the table: cut the file here, or "
+                             "remove the line"});
+      else
+        ++repeated;
       continue;
     }
     if (line == "overrun") {
@@ -250,6 +252,9 @@ bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> 
     out.lines.push_back(i + 1);
     out.cells.insert(out.cells.end(), fields.begin(), fields.end());
   }
+  if (repeated > 0)
+    out.notes.push_back("the header is there again " + counted(repeated, "time", "times") +
+                        ", and passed over");
   if (missing > 0)
     out.notes.push_back(
         fmt::format("the sampler says {} times that it lost readings (overrun)", missing));

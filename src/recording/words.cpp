@@ -49,16 +49,15 @@ bool read_words(const RecordedText& text, Recording& out) {
     const std::string_view line = trimmed(text.lines[i]);
     if (line.empty() || line == "%") continue;
     if (line.starts_with('#')) {
-      out.metadata.emplace_back(line);
+      take_comment(line, i + 1, out);
       continue;
     }
     const std::vector<RecordedWord> words = recorded_words(line);
-    if (words.size() < 2) {
+    const bool codes = std::ranges::all_of(
+        words, [](const RecordedWord& word) { return word.letter == 'G' || word.letter == 'M'; });
+    if (words.size() < 2 || codes) {
       if (others++ == 0) first_other = csv_quoted(line);
-      if (line == "G20" || line.find("INCH") != std::string_view::npos ||
-          line.find("DIAMETER") != std::string_view::npos)
-        out.unclear.push_back("a line says " + csv_quoted(line) +
-                              ": say in --columns what the columns are, with their units");
+      take_title(line, out);
       continue;
     }
     if (letters.empty())
@@ -80,7 +79,7 @@ bool read_words(const RecordedText& text, Recording& out) {
   }
   if (out.rows() < 2 || others > out.rows()) return false;
   for (const char letter : letters) {
-    const std::string name(1, letter == 'T' ? 't' : letter);
+    const std::string name(1, letter);
     out.columns.push_back({name, "", name, true});
   }
   if (others > 0)

@@ -124,6 +124,29 @@ def cloud(file):
 
 
 put("points.h5", hdf5(cloud))
+# As netCDF packs readings: whole numbers of 0.1 µm off 20 mm, one that is missing
+def netcdf(file):
+    x_um10 = np.round((x_mm - 20) / 1e-4).astype("<i4")
+    x_um10[5] = -9999
+    data = file.create_dataset("X", data=x_um10, track_times=False)
+    data.attrs["units"] = "mm"
+    data.attrs["scale_factor"] = np.array([1e-4])
+    data.attrs["add_offset"] = 20.0
+    data.attrs["_FillValue"] = np.int32(-9999)
+    for name, values, unit in (("C", c_deg, "deg"), ("Z", z_mm, "mm")):
+        file.create_dataset(name, data=values, track_times=False).attrs["units"] = unit
+
+
+# A group for each pass, of another length
+def passes(file):
+    for group, rows in (("pass1", slice(0, 10)), ("pass2", slice(10, n))):
+        for name, values, unit in (("X", x_mm, "mm"), ("C", c_deg, "deg"), ("Z", z_mm, "mm")):
+            file.create_dataset(f"{group}/{name}", data=values[rows],
+                                track_times=False).attrs["units"] = unit
+
+
+put("packed.h5", hdf5(netcdf))
+put("passes.h5", hdf5(passes))
 put("no_units.h5", hdf5(lambda file: file.create_dataset("cloud", data=points, track_times=False)))
 put("two_clouds.h5", hdf5(lambda file: [file.create_dataset(k, data=points, track_times=False)
                                         for k in ("first", "second")]))

@@ -189,6 +189,19 @@ TEST_F(Watch, SaysWhileItArrivesThatTheLinesAreWrong) {
   EXPECT_TRUE(contains(said_, "wrong  the row has 3 fields, the header names 4")) << said_;
 }
 
+TEST_F(Watch, TakesAByteOrderMarkBeforeAComment) {
+  write_stream(30, [](double) { return Place{x0_mm, y0_mm, false}; });
+  file("part.csv", "\xEF\xBB\xBF# measured: today\n" + read_text(folder_ / "part.csv"));
+  EXPECT_FALSE(watch("").empty());
+  EXPECT_EQ(exit_code_, 0) << said_;
+}
+
+TEST_F(Watch, ItsHelpHasNoOptionThatItRefuses) {
+  const std::string help = command("watch --help").out;
+  EXPECT_TRUE(contains(help, "--radius")) << help;
+  EXPECT_FALSE(contains(help, "--columns")) << help;
+}
+
 TEST_F(Watch, RefusesWhatItCannotWatch) {
   write_stream(2, [](double) { return Place{x0_mm, y0_mm, false}; });
   EXPECT_EQ(command("watch").exit_code, 2);

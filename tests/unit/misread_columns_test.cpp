@@ -100,5 +100,16 @@ TEST(MisreadColumns, LobesAreNotTurns) {
   EXPECT_EQ(stream.c_rad, run_out().c_rad);
 }
 
+// As above, of half the revolutions: four times the tolerance. A walk over those of the gap would
+// take hours.
+TEST(MisreadColumns, AGapOfManyTurnsIsNotLookedThrough) {
+  ProbeStream right = run_out();
+  for (std::size_t i = 400; i < right.size(); ++i) right.c_rad[i] += 1e7 * two_pi;
+  ProbeStream stream = right;
+  for (double& c : stream.c_rad) c *= 1.3171;
+  turn_as_reading_does(stream);
+  EXPECT_NEAR(stream.c_rad[399] / right.c_rad[399], 1.0, 2e-3);
+}
+
 }  // namespace
 }  // namespace trueaxis

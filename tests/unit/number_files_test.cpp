@@ -149,6 +149,29 @@ TEST(NumberFiles, AUnitThatNobodySaysIsAskedForWithWhatWouldReadIt) {
   EXPECT_NE(stream.find("--columns 'X=1[mm],C=2[deg],Z=3[mm]'"), std::string::npos) << stream;
 }
 
+// 0.1 µm of a packed number, rounded.
+TEST(NumberFiles, WhatNetCdfPacksIsUnpackedAndWhatIsMissingIsNoReading) {
+  RecordingOptions options;
+  options.read.diameter = false;
+  const std::string missing = refusal([&] { import_recording(made("packed.h5"), options); });
+  EXPECT_NE(missing.find("1 row has no value"), std::string::npos) << missing;
+  options.read.drop_invalid = true;
+  const ProbeStream stream = import_recording(made("packed.h5"), options).stream;
+  ASSERT_EQ(stream.size(), count - 1);
+  for (std::size_t k = 0; k < stream.size(); ++k) {
+    const std::size_t i = k < 5 ? k : k + 1;
+    EXPECT_NEAR(stream.reading_mm[k], 20.0 + 0.05 * std::cos(turn(i)), 0.5e-4 + rounding_mm) << i;
+  }
+}
+
+TEST(NumberFiles, APassInAShorterGroupIsNotDropped) {
+  RecordingOptions options;
+  options.read.diameter = false;
+  const std::string said = refusal([&] { import_recording(made("passes.h5"), options); });
+  EXPECT_NE(said.find("pass1/C (10 rows) and pass2/C (14 rows) could both be C"), std::string::npos)
+      << said;
+}
+
 struct Wrong {
   const char *name, *says;
   const char *unit = "mm", *array = "";

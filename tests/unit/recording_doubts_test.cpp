@@ -68,13 +68,11 @@ TEST_F(RecordingDoubts, CommasThatMayPartThousandsAreAsked) {
 
 TEST_F(RecordingDoubts, AUnitThatIsTypedIsRepeated) {
   const std::string rows = "20.1,0,1\n20.2,1,2\n20.3,2,3\n";
-  const ProbeStream stream =
-      read("Dia,Angle[deg],Pos[mm]\n" + rows, "X=Dia[um],C=Angle[rad],Z=Pos");
+  const ProbeStream stream = read("Dia,Angle,Pos[mm]\n" + rows, "X=Dia[um],C=Angle[rad],Z=Pos");
   EXPECT_EQ(stream.c_rad, (Readings{0.0, 1.0, 2.0}));
-  expect_said(
-      stream.read_as.front(),
-      "X = column 1 (Dia) in um, a diameter, C = column 2 (Angle[deg]) in rad, Z = column 3 "
-      "(Pos[mm])");
+  expect_said(stream.read_as.front(),
+              "X = column 1 (Dia) in um, a diameter, C = column 2 (Angle) in rad, Z = column 3 "
+              "(Pos[mm])");
 }
 
 TEST_F(RecordingDoubts, TheProposalHasEveryColumnThatTheHeaderNames) {
@@ -183,6 +181,70 @@ TEST_F(RecordingDoubts, AMessageForEachKindOfMistake) {
         ":9: t falls from 5 to 0.5: sort the rows by time (so too in 99 further places, in lines "
         "19, 29"})
     expect_said(said, kind);
+}
+
+TEST_F(RecordingDoubts, InchesBehindAnUnderscoreOrABlank) {
+  const std::string rows = "1.5,0,0.5\n1.25,90,1\n1.75,180,1.5\n";
+  for (const char* header : {"X_in,C_deg,Z_in", "X in,C deg,Z in", "X IN,C DEG,Z IN"}) {
+    const ProbeStream stream = read(std::string(header) + "\n" + rows, "", false);
+    EXPECT_EQ(stream.reading_mm, (Readings{1.5 * 25.4, 1.25 * 25.4, 1.75 * 25.4})) << header;
+    EXPECT_EQ(stream.position_mm, (Readings{0.5 * 25.4, 25.4, 1.5 * 25.4})) << header;
+  }
+}
+
+TEST_F(RecordingDoubts, MetresBehindAnUnderscoreAreNoXM) {
+  const ProbeStream stream =
+      read("X_m,C_rad,Z_m\n0.03,0,0.5\n0.03125,1,0.75\n0.0325,2,1\n", "", false);
+  EXPECT_EQ(stream.kind, StreamKind::lateral);
+  EXPECT_EQ(stream.reading_mm, (Readings{30.0, 31.25, 32.5}));
+  EXPECT_EQ(stream.position_mm, (Readings{500.0, 750.0, 1000.0}));
+  EXPECT_EQ(read("x_m,c,z\n30,0,1\n31,90,2\n").reading_mm, (Readings{30.0, 31.0}));
+}
+
+/// A log of two channels, C and the slide, read four times as often as the gauge.
+std::string camonitor_log(const char* gauge, const char* slide) {
+  std::string text;
+  for (int i = 0; i <= 12; ++i) {
+    text += fmt::format("A:C 2026-02-22 12:00:{:02}.0 {}\n", i, 40 * i % 360);
+    text += fmt::format("{} 2026-02-22 12:00:{:02}.0 {}\n", slide, i, 10 + i);
+    if (i % 4 == 0) text += fmt::format("{} 2026-02-22 12:00:{:02}.0 {}\n", gauge, i, 40 + i);
+  }
+  return text;
+}
+
+// What lies between two readings is not known; between two positions of a slide it is.
+TEST_F(RecordingDoubts, TheInstantsOfCamonitorAreThoseOfTheReadings) {
+  const ProbeStream shaft =
+      read(camonitor_log("A:GAUGE_ABS", "A:X"), "X=A:GAUGE_ABS,C=A:C,Z=A:X", false);
+  EXPECT_EQ(shaft.reading_mm, (Readings{40.0, 44.0, 48.0, 52.0}));
+  EXPECT_EQ(shaft.position_mm, (Readings{10.0, 14.0, 18.0, 22.0}));
+  const ProbeStream face = read(camonitor_log("A:Z_M", "A:X"), "", false);
+  EXPECT_EQ(face.kind, StreamKind::face);
+  EXPECT_EQ(face.reading_mm, (Readings{40.0, 44.0, 48.0, 52.0}));
+}
+
+TEST_F(RecordingDoubts, ACapitalTIsNoTime) {
+  EXPECT_TRUE(read("X 40.5 C 0 Z 1 T 5\nX 40.25 C 90 Z 2 T 5\n", "", false).time_s.empty());
+  EXPECT_TRUE(read("T;Radius;C;Z\n20,5;40,5;0;1\n20,25;40,25;90;2\n").time_s.empty());
+  EXPECT_EQ(read("T;Radius;C;Z\n0;40,5;0;1\n1,5;40,25;90;2\n", "X=2,C=3,Z=4,t=T").time_s,
+            (Readings{0.0, 1.5}));
+}
+
+TEST_F(RecordingDoubts, AHeaderThatIsThereAgainIsNoRowWithoutAValue) {
+  const std::string header = "Radius;C;Z\n", rows = "40,5;0;1\n40,25;90;2\n";
+  const ProbeStream stream = read(header + rows + header + "40,75;180;3\n");
+  EXPECT_EQ(stream.reading_mm, (Readings{40.5, 40.25, 40.75}));
+  expect_said(stream.read_as.back() + stream.read_as[1], "the header is there again 1 time");
+  expect_said(refusal(header + rows + "Durchmesser;C;Z\n81;180;3\n"),
+              ":4:1: is another header than that of the table: cut the file here");
+}
+
+TEST_F(RecordingDoubts, InstantsInUtcAndPastMidnight) {
+  const std::string utc =
+      "time,Radius,C,Z\n2026-02-22T12:00:00.5Z,40,0,1\n2026-02-22T12:00:02Z,41,9,1\n";
+  EXPECT_EQ(read(utc).time_s, (Readings{0.0, 1.5}));
+  EXPECT_EQ(read("time,Radius,C,Z\n23:59:59.5,40,0,1\n00:00:01,41,9,1\n").time_s,
+            (Readings{0.0, 1.5}));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <numbers>
 
 #include "recording/import.hpp"
+#include "recording/recording.hpp"
 #include "support/places.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -301,8 +302,7 @@ TEST_F(RecordingFormats, RowsOfErrorValuesAreNoComments) {
 
 TEST_F(RecordingFormats, ATitleThatSaysInchIsNotPassedOver) {
   const std::string message = what_is_said(put("Units: inch\nRadius;C;Z\n40,5;0;1\n40,5;90;2\n"));
-  EXPECT_NE(message.find("a line above the table says 'Units: inch'"), std::string::npos)
-      << message;
+  EXPECT_NE(message.find("a line of the file says 'Units: inch'"), std::string::npos) << message;
 }
 
 TEST_F(RecordingFormats, AGaugeStaysAGaugeInTheStreamThatIsWritten) {
@@ -332,14 +332,17 @@ TEST_F(RecordingFormats, AScaleWithADecimalCommaIsReadBesideWholeNumbers) {
 
 // Ticks are whole numbers of 64 bits, and what a file says of them may be any.
 TEST_F(RecordingFormats, TicksFarApartAreAsManySeconds) {
-  const ProbeStream stream =
-      read_recording(put("Name;Lathe;\nStarttime of export;1;x;y\n\nName;X;C;Z;\nUnit;mm;°;mm;\n"
-                         "-9000000000000000000;40;0;1;\n0;41;600000000090;2;\n9000000000000000000;"
-                         "42;1200000000180;3;\n"),
-                     said("X=X,C=C,Z=Z,t=1", false));
-  ASSERT_EQ(stream.size(), 3U);
-  EXPECT_DOUBLE_EQ(stream.time_s[1] - stream.time_s[0], 9e11);
-  EXPECT_DOUBLE_EQ(stream.time_s[2] - stream.time_s[0], 18e11);
+  const RecordedText text(
+      "Name;Lathe;\nStarttime of export;1;x;y\n\nName;X;C;Z;\nUnit;mm;°;mm;\n"
+      "-9000000000000000000;40;0;1;\n0;41;90;2;\n9000000000000000000;42;180;3;\n");
+  Recording recording;
+  ASSERT_TRUE(read_twincat_scope(text, recording));
+  ASSERT_EQ(recording.rows(), 3U);
+  double time_s = 0.0;
+  for (const auto& [row, wanted_s] : {std::pair{1U, 9e11}, {2U, 18e11}}) {
+    EXPECT_TRUE(recording.number(row, 0, time_s));
+    EXPECT_DOUBLE_EQ(time_s, wanted_s);
+  }
 }
 
 TEST_F(RecordingFormats, AStreamOfItsOwnKeepsItsMessages) {

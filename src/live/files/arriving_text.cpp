@@ -32,6 +32,9 @@ std::string with_commas(std::string_view line) {
 }  // namespace
 
 void ArrivingText::add_line(std::string_view line) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (!has_head_ && head_.empty() && line.starts_with(byte_order_mark))
+    line.remove_prefix(byte_order_mark.size());
   if (keeps_ && all_.empty() && !line.starts_with("## schema: ")) all_ = schema_line;
   if (form_ == TextForm::csv) {
     if (!has_head_) {

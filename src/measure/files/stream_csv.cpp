@@ -39,7 +39,9 @@ class LineReader {
       if (next == nullptr) {
         const auto* stop =
             static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
+        const std::size_t before = stream_.size();
         if (!line({p, static_cast<std::size_t>(stop - p)})) return false;
+        note_without_row(before);
         next = stop + 1;
       }
       p = next;
@@ -55,7 +57,10 @@ class LineReader {
     if (rows_) rows_->reserve(count);
     for (std::size_t k = 0; k < count; ++k) {
       ++line_number_;
-      if (!rows_->take(numbers.subspan(k * width, width))) rows_->any_row(text_of(k), line_number_);
+      if (rows_->take(numbers.subspan(k * width, width))) continue;
+      const std::size_t before = stream_.size();
+      rows_->any_row(text_of(k), line_number_);
+      note_without_row(before);
     }
   }
 
@@ -67,7 +72,10 @@ class LineReader {
     for (std::size_t i = 0; i < columns.front().size(); ++i) {
       ++line_number_;
       std::ranges::transform(columns, row.begin(), [i](const auto& column) { return column[i]; });
-      if (!rows_->take(row)) rows_->any_row(fmt::format("{}", fmt::join(row, ",")), line_number_);
+      if (rows_->take(row)) continue;
+      const std::size_t before = stream_.size();
+      rows_->any_row(fmt::format("{}", fmt::join(row, ",")), line_number_);
+      note_without_row(before);
     }
   }
 
@@ -92,6 +100,7 @@ class LineReader {
                            : "has no header and no rows: write a header X_M,C,Z and rows");
     }
     const std::size_t good = stream_.size();
+    csv_refuse_keys_between(keys_, good, diagnostics_);
     const bool dropped = rows_ && rows_->invalid().any() && options_.drop_invalid;
     // With an unknown column no row is kept, so that nothing tells how many have values.
     if (dropped && header_.find(CsvRole::unknown) == nullptr)
@@ -99,7 +108,9 @@ class LineReader {
           !many.empty())
         diagnostics_.add(0, 0, many);
     if (header_.line != 0 && !header_.columns.empty()) {
-      csv_finish(header_, metadata_, options_, stream_, diagnostics_);
+      csv_finish(
+          header_, metadata_, options_, [this](std::size_t row) { return line_of_row(row); },
+          stream_, diagnostics_);
     }
     if (rows_ && !dropped)
       diagnostics_.remedy(
@@ -123,7 +134,10 @@ class LineReader {
         rows_->any_row(text, line_number_);
         return true;
       }
-      if (content.size() < text.size()) metadata_.comment(text, line_number_);
+      if (content.size() == text.size()) return true;
+      metadata_.comment(text, line_number_);
+      if (const std::string_view key = csv_known_key(text); !key.empty())
+        keys_.push_back({line_number_, csv_character(text, key), stream_.size(), std::string(key)});
       return true;
     }
     if (content.size() < text.size()) metadata_.comment_behind(text, content.size(), line_number_);
@@ -137,12 +151,24 @@ class LineReader {
     return true;
   }
 
+  /// After a line below the header: remembers one that gave no row.
+  void note_without_row(std::size_t rows_before) {
+    if (rows_ && line_number_ > header_.line && stream_.size() == rows_before)
+      without_row_.push_back(rows_before);
+  }
+  std::size_t line_of_row(std::size_t row) const {
+    const auto above = std::ranges::upper_bound(without_row_, row) - without_row_.begin();
+    return header_.line + 1 + row + static_cast<std::size_t>(above);
+  }
+
   ProbeStream& stream_;
   CsvDiagnostics& diagnostics_;
   CsvMetadataReader metadata_;
   const StreamReadOptions& options_;
   CsvHeader header_;
   std::optional<CsvRows> rows_;
+  std::vector<CsvKeyBelow> keys_;
+  std::vector<std::size_t> without_row_;  ///< lines below the header: how many rows each is after
   std::size_t line_number_ = 0;
   bool of_arrays_ = false;
 };

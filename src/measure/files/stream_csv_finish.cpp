@@ -30,6 +30,33 @@ void unwrap(std::vector<double>& c, double turn) {
   }
 }
 
+/// Refuses angles of no spindle: a number that lost its point or is of another column.
+bool refuse_impossible_turning(const std::vector<double>& c, double turn,
+                               const std::function<std::size_t(std::size_t)>& line_of_row,
+                               CsvDiagnostics& diagnostics) {
+  constexpr double most_turned = 1e6;   // turns: 100 minutes at 10 000 rpm
+  constexpr double most_counted = 1e9;  // turns: beyond it a double is coarser than a µrad
+  const double middle = median(c);
+  const auto off = [&](double value) { return std::abs(value - middle) / turn; };
+  const auto farthest = std::ranges::max_element(c, {}, off);
+  if (off(*farthest) > most_turned) {
+    diagnostics.add(line_of_row(static_cast<std::size_t>(farthest - c.begin())), 0,
+                    fmt::format("C is {:.10g} here, {:.3g} revolutions from the middle of the "
+                                "stream, and a spindle takes 100 minutes for 1e6 at 10 000 rpm: "
+                                "correct C, or remove the row",
+                                *farthest, off(*farthest)));
+    return true;
+  }
+  const auto far =
+      std::ranges::find_if(c, [&](double value) { return std::abs(value) > most_counted * turn; });
+  if (far == c.end()) return false;
+  diagnostics.add(line_of_row(static_cast<std::size_t>(far - c.begin())), 0,
+                  fmt::format("C is {:.10g}, more than 1e9 revolutions, where a double is coarser "
+                              "than a µrad: subtract whole revolutions",
+                              *far));
+  return true;
+}
+
 /// What X (X_M, or X of a face) is, and who says so. Unit, metadata and caller must agree.
 XConvention x_convention(const CsvHeader& header, const CsvKnownMetadata& known,
                          const StreamReadOptions& options, CsvDiagnostics& diagnostics) {
@@ -182,7 +209,8 @@ bool csv_is_wrapped(const std::vector<double>& c, double turn) {
 }
 
 void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
-                const StreamReadOptions& options, ProbeStream& stream,
+                const StreamReadOptions& options,
+                const std::function<std::size_t(std::size_t)>& line_of_row, ProbeStream& stream,
                 CsvDiagnostics& diagnostics) {
   const CsvKnownMetadata& known = metadata.known;
   stream.x_convention = x_convention(header, known, options, diagnostics);
@@ -194,6 +222,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
     return;
   }
   const double turn = angle.unit.turn;
+  if (refuse_impossible_turning(stream.c_rad, turn, line_of_row, diagnostics)) return;
   if (!angle.running && csv_is_wrapped(stream.c_rad, turn)) unwrap(stream.c_rad, turn);
   const auto [low, high] = std::minmax_element(stream.c_rad.begin(), stream.c_rad.end());
   if (*high - *low < 1e-3 * turn) {

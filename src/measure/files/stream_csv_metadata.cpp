@@ -146,6 +146,23 @@ bool csv_is_key(std::string_view key) {
   });
 }
 
+std::string_view csv_known_key(std::string_view comment) {
+  const std::size_t hash = comment.find('#'), colon = comment.find(':');
+  if (hash == std::string_view::npos || colon == std::string_view::npos || colon < hash) return {};
+  const std::string_view written = trimmed(comment.substr(hash + 1, colon - hash - 1));
+  return is_known(lower_case(written)) ? written : std::string_view();
+}
+
+void csv_refuse_keys_between(const std::vector<CsvKeyBelow>& keys, std::size_t rows,
+                             CsvDiagnostics& diagnostics) {
+  for (const CsvKeyBelow& one : keys)
+    if (one.rows > 0 && one.rows < rows)
+      diagnostics.add(one.line, one.column,
+                      csv_quoted(one.key) +
+                          " is between rows, and a key counts for all of them: put it above the "
+                          "header, or give the rows below it a file of their own");
+}
+
 void CsvMetadataReader::comment(std::string_view line, std::size_t line_number) {
   const std::size_t hash = line.find('#');
   const std::size_t colon = std::min(line.find(':', hash + 1), line.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -58,6 +59,18 @@ class CsvMetadataReader {
 /// Whether `key` can be written as metadata and read again unchanged.
 bool csv_is_key(std::string_view key);
 
+/// The key of stream.md that a comment line states, as it is written; empty: none.
+std::string_view csv_known_key(std::string_view comment);
+
+/// A key that is below `rows` rows of a file. With rows below it as well it may be meant for those
+/// alone, and is refused.
+struct CsvKeyBelow {
+  std::size_t line, column, rows;
+  std::string key;
+};
+void csv_refuse_keys_between(const std::vector<CsvKeyBelow>& keys, std::size_t rows,
+                             CsvDiagnostics& diagnostics);
+
 /// Whether a key in small letters is one of a set-up: "setup.2.reindex".
 bool csv_is_setup_key(std::string_view key);
 
@@ -85,8 +98,10 @@ std::string csv_comment_trouble(std::string_view text);
 bool csv_is_wrapped(const std::vector<double>& c, double turn);
 
 /// From the numbers as they are in the file to mm, rad (running), s and radii. What contradicts
-/// is a diagnostic; nothing is changed then.
+/// is a diagnostic; nothing is changed then. `line_of_row` gives the line of a reading (from 0).
 void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
-                const StreamReadOptions& options, ProbeStream& stream, CsvDiagnostics& diagnostics);
+                const StreamReadOptions& options,
+                const std::function<std::size_t(std::size_t)>& line_of_row, ProbeStream& stream,
+                CsvDiagnostics& diagnostics);
 
 }  // namespace trueaxis

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -175,6 +176,13 @@ bool CsvRows::field(const Target& target, std::string_view text, double& value,
   return false;
 }
 
+bool CsvRows::begins_pass() const {
+  for (std::size_t k = 0; k < targets_.size(); ++k)
+    if (targets_[k].column->role == CsvRole::pass)
+      return !targets_[k].whole->empty() && row_[k] != targets_[k].whole->back();
+  return false;
+}
+
 void CsvRows::any_row(std::string_view line, std::size_t line_number) {
   csv_split(line, header_.separator, fields_);
   const std::size_t count = targets_.size();
@@ -198,6 +206,7 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
   std::vector<Mistake> mistakes;
   std::string_view no_value;
   bool no_values_alone = true;
+  std::optional<std::size_t> falls;  // the mistake that t falls
   for (std::size_t k = 0; k < count; ++k) {
     if (targets_[k].column->role == CsvRole::unknown) continue;
     std::string why;
@@ -210,6 +219,7 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
     if (fine && k == time_at_) {
       if (row_[k] < last_time_) {
         fine = no_values_alone = false;
+        falls = mistakes.size();
         why = "t falls from " + exact_text(last_time_) + " to " + exact_text(row_[k]) +
               ": sort the rows by time";
       }
@@ -217,6 +227,9 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
     }
     if (!fine) mistakes.push_back({fields_[k], std::move(why)});
   }
+  if (falls && begins_pass())
+    mistakes[*falls].why =
+        "t begins anew with a pass: let t go on over all passes, or remove column t";
   if (mistakes.empty()) {
     if (all_known_) append();
     return;

@@ -48,7 +48,8 @@ class CsvRows {
   };
 
   bool field(const Target& target, std::string_view text, double& value, std::string& why) const;
-  bool accept();  ///< appends row_ unless its time falls
+  bool accept();             ///< appends row_ unless its time falls
+  bool begins_pass() const;  ///< row_ has another number of the pass than the row before
   void append();
 
   const CsvHeader& header_;
