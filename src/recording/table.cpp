@@ -157,8 +157,9 @@ void drop_empty_columns(Recording& out) {
 enum class HeaderAgain { no, same, another };
 
 /// Whether a row has names in the place of numbers, as where a logger begins anew.
-HeaderAgain header_again(const std::vector<std::string_view>& fields, const Recording& out) {
-  if (numbers_in(fields, '.') + numbers_in(fields, ',') > 0) return HeaderAgain::no;
+HeaderAgain header_again(const std::vector<std::string_view>& fields, char decimal,
+                         const Recording& out) {
+  if (numbers_in(fields, decimal) > 0) return HeaderAgain::no;
   std::size_t same = 0, named = 0, filled = 0;
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const std::string_view field = trimmed(fields[k]);
@@ -225,7 +226,8 @@ bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> 
       take_comment(text.lines[i], i + 1, out);
       continue;
     }
-    if (const HeaderAgain again = header_again(fields, out); again != HeaderAgain::no) {
+    if (const HeaderAgain again = header_again(fields, layout->decimal, out);
+        again != HeaderAgain::no) {
       if (again == HeaderAgain::another)
         out.wrong.push_back({"", i + 1, 1,
                              "is another header than that of the table: cut the file here, or "
