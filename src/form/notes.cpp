@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "form/axis_line.hpp"
 #include "form/sampling.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
 namespace {
+
+constexpr double share_worth_a_note = 0.1;  // of a RONt
+constexpr double shown_mm = 1e-5;           // digit of a screen
 
 void note_radius(const ProbeStream& stream, const Sections& sections, FormResult& result) {
   if (!sections.radius_known) {
@@ -74,6 +78,30 @@ void note_ball(FormResult& result) {
   }
 }
 
+/// A section across the spindle of a cylinder that leans by t is an ellipse: R t²/2 is its range.
+void note_lean(FormResult& result) {
+  std::vector<CentrePoint> centres;
+  double radius_mm = 0.0, largest_mm = 0.0;
+  for (const SectionForm& section : result.sections) {
+    if (!section.z_mm || section.circles.empty()) return;
+    const FormCircle& circle = section.circles.front();
+    centres.push_back({circle.x_mm, circle.y_mm, *section.z_mm});
+    radius_mm = std::max(radius_mm, circle.radius_mm);
+    for (const FormValue& one : section.values)
+      if (one.name == "RONt")
+        largest_mm = std::max(
+            largest_mm, one.estimate.interval ? one.estimate.interval->back() : one.estimate.value);
+  }
+  if (centres.size() < 2) return;
+  const AxisLine axis = least_squares_line(centres);
+  const double lean = std::hypot(axis.l, axis.m), range_mm = 0.5 * radius_mm * lean * lean;
+  if (range_mm > std::max(share_worth_a_note * largest_mm, shown_mm))
+    result.notes.push_back(fmt::format(
+        "The part leans by {:.3g} mrad, and its sections lie across the spindle: this alone makes "
+        "a RONt of {:.2g} µm. CYLt is without it",
+        1e3 * lean, range_mm / mm_per_um));
+}
+
 /// Of a surface the value has no such bias.
 void note_noise(FormResult& result) {
   if (result.surface) return;
@@ -86,7 +114,7 @@ void note_noise(FormResult& result) {
         bias = one.bias_mm;
         value = one.estimate.value;
       }
-  if (share > 0.1)
+  if (share > share_worth_a_note)
     result.notes.push_back(
         fmt::format("Noise alone makes a RONt of {:.3g} µm larger by {:.3g} µm on average: this is "
                     "included in U and not subtracted",
@@ -123,6 +151,7 @@ void add_notes(const ProbeStream& stream, const Sections& sections, FormResult& 
   note_sampling(result);
   note_ball(result);
   note_noise(result);
+  note_lean(result);
   for (const SectionForm& section : result.sections)
     for (const FormCircle& circle : section.circles)
       if (!circle.why_not.empty()) {

@@ -65,17 +65,26 @@ TEST(AxisStudy, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
 }
 
 // A delay that moves the ideal axis by up to 0.35 mm, in 99 to 171 readings, is not mistaken for
-// correlated noise: a tenth of its error is left at most, and U says how much (5 % are beyond it:
+// correlated noise: a fifth of its error is left at most, and U says how much (5 % are beyond it:
 // one of four, two with a probability of 1.4 %).
 TEST(AxisStudy, OfFewReadingsAStrongDelayIsNoNoise) {
   int beyond = 0;
   for (const std::uint64_t at : {30000076U, 30000250U, 30000128U, 30000025U}) {
     const Outcome o = run_case(Group::mixture, at);
     ASSERT_LT(o.readings, 200U);
-    EXPECT_LT(o.extended.rms_mm(), 0.1 * o.ideal.rms_mm()) << "seed " << at;
+    EXPECT_LT(o.extended.rms_mm(), 0.2 * o.ideal.rms_mm()) << "seed " << at;
     beyond += o.extended.rms_mm() > 2.0 * o.extended.u_rms_mm();
   }
   EXPECT_LE(beyond, 1);
+}
+
+// A delay of 22 ms turns a pass at 151/min by 20°, farther than its column reaches: two lags
+// together fit as well, and turn the axis by 35 µm. What is left is the noise of 2679 readings and
+// U.
+TEST(AxisStudy, ALongDelayIsNotTwoLags) {
+  const Outcome o = run_case(Group::mixture, 530000013U);
+  EXPECT_LT(o.extended.rms_mm(), 0.1 * o.ideal.rms_mm());
+  EXPECT_LT(o.extended.rms_mm(), 2.0 * o.extended.u_rms_mm());
 }
 
 // The nearest straight line of κ(s − middle)² is κ L²/12 all over the length: its ends and its

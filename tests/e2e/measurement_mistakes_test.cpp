@@ -179,6 +179,20 @@ TEST_F(MeasurementMistakes, UnitsOfThePositions) {
   expect_refused({"the column C is in degrees", "write C[deg]"});
   rows(scaled({"A"}, 3.14159265358979 / 180.0));
   expect_refused({"the column A is in radians", "write A[rad]"});
+  rows(scaled({"X"}, 1.0 / 25.4));
+  expect_refused({"the column X is in inch", "write X[in]"});
+}
+
+// A slip of the pen in one row: no unit and no sign mends it, and the others fit without it.
+TEST_F(MeasurementMistakes, OneRow) {
+  for (const int wrong : {1, 20, 57}) {
+    int row = 0;
+    rows([&](Fields& at) {
+      if (++row == wrong) at["C"] = std::to_string(std::stod(at["C"]) + 57.0);
+    });
+    expect_refused({("fits row " + std::to_string(wrong) + " of wrong.csv").c_str(),
+                    "correct the row, or leave it out"});
+  }
 }
 
 TEST_F(MeasurementMistakes, SignsAndColumns) {

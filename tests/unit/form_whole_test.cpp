@@ -3,6 +3,7 @@
 // follow from how they are made.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
@@ -145,6 +146,33 @@ TEST(FormWhole, TheRadiusOfAConeThatABallReads) {
   for (const SectionForm& section : result.sections)
     EXPECT_NEAR(value_of(section.values, "radius").estimate.value,
                 radius_mm + taper * *section.z_mm, rounding_mm);
+}
+
+// Across the spindle the sections of a leaning cylinder are ellipses of range R t²/2, and a note
+// says so: to the fourth order in t. There is none for an upright part, nor next to larger lobes.
+TEST(FormWhole, ALeaningCylinderHasEllipsesAcrossTheSpindle) {
+  const double radius_mm = 32.0, lean = 0.01, range_mm = 0.5 * radius_mm * lean * lean;
+  for (const double slope : {lean, 0.0})
+    for (const double lobes_mm : {0.0, 0.02}) {
+      const Revolved shape{Axis{0.0, 0.0, slope, 0.0, 0.0}, radius_mm, 0.0};
+      const FormResult result =
+          assess_form(part_stream(
+                          [&](double c, double z) {
+                            return intersect(shape, c, z).x_mm + lobes_mm * std::cos(3.0 * c);
+                          },
+                          360, uneven_z),
+                      quick());
+      const bool said = std::ranges::any_of(result.notes, [](const std::string& note) {
+        return note.find("leans by 10 mrad") != std::string::npos &&
+               note.find("a RONt of 1.6 µm") != std::string::npos;
+      });
+      EXPECT_EQ(said, slope > 0.0 && lobes_mm == 0.0) << slope << ' ' << lobes_mm;
+      if (lobes_mm > 0.0 || slope == 0.0) continue;
+      for (const SectionForm& section : result.sections)
+        EXPECT_NEAR(value_of(section.values, "RONt", "MZCI").estimate.value, range_mm,
+                    radius_mm * std::pow(lean, 4));
+      EXPECT_NEAR(of(result, "cylindricity", "CYLt", "MZCY"), 0.0, rounding_mm);
+    }
 }
 
 // A helix of 0.5 mm a turn on a tilted cone: the turns are as round as the cone.

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "calibrate/estimate/tip_fit.hpp"
 #include "math/golden_section.hpp"
@@ -173,7 +176,13 @@ std::vector<Mistake> mistakes_of(const Machine& machine, std::span<const Machine
         list.push_back(exchanged_axes(axes[i].name, axes[j].name));
     list.push_back(scaled_axis(axes[i].name, -1.0, "the column {} runs the other way",
                                "turn its sign, or axes.{}.direction of the machine"));
-    if (!is_rotary(axes[i].name)) continue;
+    if (!is_rotary(axes[i].name)) {
+      list.push_back(
+          scaled_axis(axes[i].name, mm_per_inch, "the column {} is in inch", "write {}[in]"));
+      list.push_back(
+          scaled_axis(axes[i].name, 1.0 / mm_per_inch, "the column {} is in mm", "write {}[mm]"));
+      continue;
+    }
     list.push_back(scaled_axis(axes[i].name, 1.0 / rad_per_deg, "the column {} is in radians",
                                "write {}[rad]"));
     list.push_back(
@@ -205,21 +214,28 @@ std::optional<double> left_mm(const Machine& machine, std::span<const MachineMea
   return fitted.rms_after_mm;
 }
 
-/// Rows here and there, some 120 numbers of them, for a first look at many mistakes.
-std::vector<MachineMeasurement> some_of(std::span<const MachineMeasurement> data,
-                                        std::size_t numbers) {
-  const double share = some_numbers / static_cast<double>(numbers);
+/// The rows that are kept, by file and row; read-outs whole.
+template <class Kept>
+std::vector<MachineMeasurement> rows_of(std::span<const MachineMeasurement> data, Kept kept) {
   std::vector<MachineMeasurement> out(data.begin(), data.end());
-  for (MachineMeasurement& file : out) {
+  for (std::size_t f = 0; f < out.size(); ++f) {
+    MachineMeasurement& file = out[f];
     if (file.kind == MeasurementKind::axis) continue;
     const auto thin = [&](auto& column) {
       std::size_t row = 0;
-      std::erase_if(column, [&](const auto&) { return golden_share(row++) >= share; });
+      std::erase_if(column, [&](const auto&) { return !kept(f, row++); });
     };
     thin(file.setup), thin(file.ball), thin(file.axes), thin(file.deviation_mm);
     thin(file.length_mm), thin(file.along_mm), thin(file.tool_length_mm), thin(file.time_s);
   }
   return out;
+}
+
+/// Rows here and there, some 120 numbers of them, for a first look at many mistakes.
+std::vector<MachineMeasurement> some_of(std::span<const MachineMeasurement> data,
+                                        std::size_t numbers) {
+  const double share = some_numbers / static_cast<double>(numbers);
+  return rows_of(data, [&](std::size_t, std::size_t row) { return golden_share(row) < share; });
 }
 
 /// The RMS of `left_mm`; none either where there are too few rows.
@@ -262,6 +278,44 @@ class Worthwhile {
   std::optional<double> as_read_mm_;
 };
 
+/// The one row without which the readings fit, by halving of what does not. Empty: there is none.
+std::string one_wrong_row(const Machine& machine, std::span<const MachineMeasurement> data,
+                          const CalibrationOptions& options, double fine_mm) {
+  using Place = std::pair<std::size_t, std::size_t>;
+  std::vector<Place> in, out;
+  for (std::size_t f = 0; f < data.size(); ++f)
+    for (std::size_t row = 0; data[f].kind != MeasurementKind::axis && row < data[f].rows(); ++row)
+      (row % 2 == 0 ? in : out).emplace_back(f, row);
+  const auto left = [&](const std::vector<Place>& rows) {
+    const std::set<Place> kept(rows.begin(), rows.end());
+    return left_of_some_mm(machine,
+                           rows_of(data,
+                                   [&](auto f, auto row) {
+                                     return kept.contains({f, row});
+                                   }),
+                           options)
+        .value_or(std::numeric_limits<double>::infinity());
+  };
+  if (left(in) > fine_mm) std::swap(in, out);
+  if (left(in) > fine_mm) return "";
+  while (out.size() > 1) {
+    const auto middle = out.begin() + static_cast<std::ptrdiff_t>(out.size() / 2);
+    std::vector<Place> half(out.begin(), middle), more = in;
+    more.insert(more.end(), half.begin(), half.end());
+    if (left(more) <= fine_mm) {
+      in = std::move(more), out.erase(out.begin(), middle);
+    } else {
+      in.insert(in.end(), middle, out.end());
+      out = std::move(half);
+    }
+  }
+  if (out.empty() || left(in) > fine_mm) return "";
+  return fmt::format(
+      "no machine model fits row {} of {}, and {:.3g} µm are left without it: correct the row, or "
+      "leave it out",
+      out.front().second + 1, data[out.front().first].source, left(in) / mm_per_um);
+}
+
 /// Whatever k is printed: a wrong unit stays wrong.
 double least_size(const CalibratedParameter& p) {
   return std::abs(p.estimate.value) - 2.0 * p.estimate.u;
@@ -286,6 +340,8 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
   const bool in_proportion =
       left_by_all_mm <= std::max(far_too_small * found.stated_noise_mm, largest_left_mm);
   if (!wrong && in_proportion && as_read_mm < fine_mm) return "";
+  if (wrong || !in_proportion)
+    if (std::string row = one_wrong_row(machine, data, options, fine_mm); !row.empty()) return row;
   std::string best;
   double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * as_read_mm;
   const Worthwhile worthwhile(machine, data, options, found.equations);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "diagnose/refit/places_before.hpp"
+#include "diagnose/refit/timing.hpp"
 #include "diagnose/search/scan.hpp"
 #include "diagnose/search/scan_list.hpp"
 
@@ -13,6 +14,8 @@ namespace {
 
 constexpr int most_searches = 2;          // about what moves
 constexpr double cycles_of_a_line = 2.0;  // nearer to one per revolution a bend looks like it
+
+bool is_late(const Hypothesis& h) { return is_lag(h) || is_delay(h); }
 
 bool is_slow_line(const Problem& problem, const Hypothesis& h) {
   if (!h.effect || !h.effect->line) return false;
@@ -72,6 +75,13 @@ Searched searched(const IdealModel& ideal) {
     std::erase_if(without.effects, [](const Effect* effect) { return is_step(effect->term); });
     best.at_rest_mm = weigh_against(without, ideal, best);
     if (!best.at_rest_mm.empty()) without.effects = ideal.problem.effects;
+  }
+  // A long delay turns farther than a column reaches, and then looks like two lags.
+  if (std::ranges::count_if(best.search->model.terms, is_late) > 1) {
+    Problem no_lag = ideal.problem;
+    std::erase_if(no_lag.effects,
+                  [](const Effect* effect) { return is_lag(of_effect(*effect, {})); });
+    weigh_against(no_lag, ideal, best);
   }
   without.fewest_cycles = cycles_of_a_line;
   const auto slow = [&](const Hypothesis& h) { return is_slow_line(without, h); };
