@@ -79,8 +79,7 @@ TEST(AxisStudy, OfFewReadingsAStrongDelayIsNoNoise) {
 }
 
 // A delay of 22 ms turns a pass at 151/min by 20°, farther than its column reaches: two lags
-// together fit as well, and turn the axis by 35 µm. What is left is the noise of 2679 readings and
-// U.
+// together fit as well, and turn the axis by 35 µm. The one delay leaves it within U.
 TEST(AxisStudy, ALongDelayIsNotTwoLags) {
   const Outcome o = run_case(Group::mixture, 530000013U);
   EXPECT_LT(o.extended.rms_mm(), 0.1 * o.ideal.rms_mm());
