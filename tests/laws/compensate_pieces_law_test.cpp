@@ -30,6 +30,17 @@ double from_line(const Vector3& p, const Vector3& a, const Vector3& b) {
   return std::hypot(ap[0] - s * ab[0], ap[1] - s * ab[1], ap[2] - s * ab[2]);
 }
 
+/// How far the tip leaves a line, at 40 points of every piece.
+double largest_off(const ProgramCase& one, const std::vector<AxisPositions>& written,
+                   const Vector3& start, const Vector3& end) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < written.size(); ++i)
+    for (int j = 0; j <= 40; ++j)
+      largest = std::max(
+          largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
+  return largest;
+}
+
 // The tip is asked at 40 points of every piece; between the quarters that the command looks at an
 // even curve rises by at most a third of a percent, a curve of the third degree by 3 %.
 TEST(CompensatePiecesLaw, PiecesStayWithinTheTolerance) {
@@ -49,11 +60,7 @@ TEST(CompensatePiecesLaw, PiecesStayWithinTheTolerance) {
     const std::vector<AxisPositions> written = words_of(result.text);
     ASSERT_EQ(written.size(), 2 + result.blocks_inserted);
     const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
-    double largest = 0.0;
-    for (std::size_t i = 1; i < written.size(); ++i)
-      for (int j = 0; j <= 40; ++j)
-        largest = std::max(
-            largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
+    const double largest = largest_off(one, written, start, end);
     EXPECT_LT(largest, 1.03 * 0.01) << "seed " << seed;
     EXPECT_LE(result.between_after.value, 0.01);
     EXPECT_GT(result.blocks_inserted, 0u);
@@ -112,11 +119,7 @@ TEST(CompensatePiecesLaw, PiecesOfLongBlocksStayWithinTheTolerance) {
     ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
     const std::vector<AxisPositions> written = words_of(result.text);
     const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
-    double largest = 0.0;
-    for (std::size_t i = 1; i < written.size(); ++i)
-      for (int j = 0; j <= 40; ++j)
-        largest = std::max(
-            largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
+    const double largest = largest_off(one, written, start, end);
     EXPECT_LT(largest, 1.03 * 0.2) << "seed " << seed;
     EXPECT_GT(result.blocks_inserted, 10u);
   }
@@ -145,11 +148,7 @@ TEST(CompensatePiecesLaw, PiecesAtTheCornersOfATable) {
     ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
     const std::vector<AxisPositions> written = words_of(result.text);
     const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
-    double largest = 0.0;
-    for (std::size_t i = 1; i < written.size(); ++i)
-      for (int j = 0; j <= 40; ++j)
-        largest = std::max(
-            largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
+    const double largest = largest_off(one, written, start, end);
     EXPECT_LT(largest, 1.03 * 0.0005) << "seed " << seed;
     EXPECT_LT(static_cast<double>(result.blocks_inserted), 0.5 * 780.0 / 1.25) << "seed " << seed;
   }
