@@ -186,7 +186,9 @@ Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& sample
   const auto attempt = [&](std::vector<double> from) {
     Minimum other = minimise(model, std::move(from), loss, max_iterations);
     passes += other.iterations;
-    if (lower(other, minima.best)) std::swap(other, minima.best);
+    // If two ways lead to one minimum, the first stays, whatever their last steps leave.
+    const bool there = minima.best.converged && same_place(model, other, minima.best);
+    if (lower(other, minima.best) && !there) std::swap(other, minima.best);
     if (other.converged && !same_place(model, other, minima.best) &&
         (!minima.rival || lower(other, *minima.rival)))
       minima.rival = std::move(other);
