@@ -3,55 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <ranges>
+#include <vector>
 
-#include "form/exchange.hpp"
+#include "math/dual_simplex.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::form {
-namespace {
-
-constexpr int directions = 12;  // a section begins with; others follow where they are needed
-constexpr int most_additions = 50;
-
-/// Least t with Σ_k q_k φ_k(centre, φ) + t ≥ the centre's distance in every direction φ, about an
-/// axis that may lean.
-double smallest(std::span<const CentrePoint> centres) {
-  const auto [z_low, z_high] =
-      std::ranges::minmax(centres | std::views::transform(&CentrePoint::z_mm));
-  const double middle = 0.5 * (z_low + z_high), half = std::max(0.5 * (z_high - z_low), 1e-9);
-  constexpr Eigen::Index unknowns = 5;
-  std::vector<Eigen::VectorXd> rows;
-  std::vector<double> y;
-  const auto add = [&](const CentrePoint& centre, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle), z = (centre.z_mm - middle) / half;
-    Eigen::VectorXd row(unknowns);
-    row << 1.0, c, s, z * c, z * s;
-    rows.push_back(row);
-    y.push_back(c * centre.x_mm + s * centre.y_mm);
-  };
-  for (const CentrePoint& centre : centres)
-    for (int k = 0; k < directions; ++k) add(centre, two_pi * k / directions);
-  double size = 0.0;
-  for (int round = 0; round < most_additions; ++round) {
-    Exchange::Rows all(static_cast<Eigen::Index>(rows.size()), unknowns);
-    for (std::size_t i = 0; i < rows.size(); ++i) all.row(static_cast<Eigen::Index>(i)) = rows[i];
-    const Nearest nearest = Exchange(std::move(all), Criterion::minimum_circumscribed)(y);
-    size = nearest.q[0];
-    double largest = 0.0;
-    for (const CentrePoint& centre : centres) {
-      const double z = (centre.z_mm - middle) / half;
-      const double x = centre.x_mm - nearest.q[1] - z * nearest.q[3];
-      const double off_y = centre.y_mm - nearest.q[2] - z * nearest.q[4];
-      largest = std::max(largest, std::hypot(x, off_y));
-      if (std::hypot(x, off_y) > size * (1.0 + 1e-13)) add(centre, std::atan2(off_y, x));
-    }
-    if (largest <= size * (1.0 + 1e-12) + 1e-15) break;
-  }
-  return 2.0 * size;
-}
-
-}  // namespace
 
 AxisLine least_squares_line(std::span<const CentrePoint> centres) {
   const double n = static_cast<double>(centres.size());
@@ -74,8 +33,76 @@ AxisLine least_squares_line(std::span<const CentrePoint> centres) {
   return line;
 }
 
+namespace {
+
+/// A side of the cylinder: no centre is further than the size off the axis in one direction.
+struct Side {
+  Unknowns column;
+  double cost;
+};
+
+/// Unknowns are the size, and where the axis is in the middle and half the length further. There
+/// are as many sides as directions, of which the one that is broken most enters.
+class Cylinder {
+ public:
+  explicit Cylinder(std::span<const CentrePoint> centres)
+      : centres_(centres), start_(least_squares_line(centres)) {
+    const auto [low, high] =
+        std::ranges::minmax(centres | std::views::transform(&CentrePoint::z_mm));
+    middle_ = 0.5 * (low + high);
+    half_ = std::max(0.5 * (high - low), 1e-9);
+  }
+
+  static constexpr int unknowns = 5, most_exchanges = 1000;
+
+  std::vector<Side> walls() const {
+    double largest = 0.0;
+    for (const CentrePoint& one : centres_)
+      largest = std::max(largest, std::hypot(x(one), y(one)));
+    std::vector<Side> out;
+    for (int k = 0; k < unknowns; ++k)
+      out.push_back({Unknowns::Unit(unknowns, k), -wall * largest});
+    return out;
+  }
+  Unknowns column(const Side& side) const { return side.column; }
+  double cost(const Side& side) const { return side.cost; }
+  std::optional<Side> entering(const Unknowns& at, int) const {
+    std::optional<Side> out;
+    double most = at[0] + settled * std::abs(at[0]) + least_mm;
+    for (const CentrePoint& one : centres_) {
+      const double t = (one.z_mm - middle_) / half_;
+      const double off_x = x(one) - at[1] - t * at[3], off_y = y(one) - at[2] - t * at[4];
+      const double off = std::hypot(off_x, off_y);
+      if (off <= most) continue;
+      most = off;
+      const double c = off_x / off, s = off_y / off;
+      out.emplace(Side{Unknowns(unknowns), c * x(one) + s * y(one)});
+      out->column << 1.0, c, s, t * c, t * s;
+    }
+    return out;
+  }
+
+ private:
+  /// How far off the walls are that the exchange starts from, over the largest distance from the
+  /// line of least squares: the axis of the smallest cylinder is at most two of it off at its ends.
+  static constexpr double wall = 3.0;
+  static constexpr double settled = 1e-12, least_mm = 1e-15;
+  double x(const CentrePoint& one) const { return one.x_mm - start_.at(one.z_mm)[0]; }
+  double y(const CentrePoint& one) const { return one.y_mm - start_.at(one.z_mm)[1]; }
+
+  std::span<const CentrePoint> centres_;
+  AxisLine start_;
+  double middle_, half_;
+};
+
+}  // namespace
+
 double smallest_cylinder_mm(std::span<const CentrePoint> centres) {
-  return centres.size() < 3 ? 0.0 : smallest(centres);
+  if (centres.size() < 3) return 0.0;
+  Cylinder cylinder(centres);
+  std::vector<Side> sides = cylinder.walls();
+  const Unknowns size = Unknowns::Unit(Cylinder::unknowns, 0);
+  return 2.0 * dual_simplex(size, sides, cylinder, Cylinder::most_exchanges).x[0];
 }
 
 namespace {

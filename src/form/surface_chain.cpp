@@ -29,8 +29,9 @@ enum State { absent, constant, changing };
 constexpr std::array<double, 3> prior_counts{2.0, 1.0, 1.0};
 constexpr double least_size_over_u = 0.5, size_step = 2.0;
 constexpr int most_sizes = 30;
-/// Orders that the warm-up did not find are looked at in one sweep of so many.
-constexpr int seldom = 8;
+/// Orders that were not found are looked at in one sweep of so many: in the warm-up after its first
+/// quarter, and after it.
+constexpr int seldom_at_first = 4, seldom = 8;
 constexpr std::size_t most_to_begin = 8;
 constexpr double least_to_begin = 8.0;  // of the logarithm of the evidence
 
@@ -49,26 +50,24 @@ class Chain {
       orders_.emplace_back(n, first, last, begin, normal_.block(begin, begin, size, size));
     }
     state_.assign(orders_.size(), absent);
-    found_.assign(orders_.size(), 0);
+    found_.assign(orders_.size(), false);
     value_ = VectorXd::Zero(terms.size());
     rounding_ = 1e-22 * (sums.squares / count_ + 1e-30);
     variance_ = std::max({squares_ / count_, least_variance_, rounding_});
     make_sizes();
     begin_by_largest();
     for (int sweep = 0; sweep < warm_up; ++sweep) {
-      for (std::size_t at = 0; at < orders_.size(); ++at) {
-        renew(at);
-        if (2 * sweep > warm_up && state_[at] != absent) ++found_[at];
-      }
-      renew_shares();
-      renew_noise();
+      const bool first_quarter = 4 * sweep < warm_up;
+      renew_all(sweep, first_quarter ? 1 : seldom_at_first);
+      for (std::size_t at = 0; !first_quarter && at < orders_.size(); ++at)
+        if (state_[at] != absent) found_[at] = true;
       if (sweep == warm_up / 4 || sweep == warm_up / 2) make_sizes();
     }
   }
 
-  void sweep(int number) {
+  void renew_all(int sweep, int every) {
     for (std::size_t at = 0; at < orders_.size(); ++at)
-      if (found_[at] > 0 || (number + orders_[at].order()) % seldom == 0) renew(at);
+      if (found_[at] || (sweep + orders_[at].order()) % every == 0) renew(at);
     renew_shares();
     renew_noise();
   }
@@ -247,7 +246,7 @@ class Chain {
   VectorXd base_right_, right_, value_;
   std::vector<SurfaceOrder> orders_;
   std::vector<State> state_;
-  std::vector<int> found_;
+  std::vector<bool> found_;
   std::vector<double> sizes_, gain_;  ///< τ², and τ²/σ² padded
   std::array<double, 3> share_of_state_{0.9, 0.05, 0.05};
 };
@@ -262,7 +261,7 @@ SurfacePosterior sample_surface(const SurfaceTerms& terms, SurfaceSums sums,
   out.order_is_there = VectorXd::Zero(terms.orders + 1);
   for (int draw = 0; draw < options.draws; ++draw) {
     stop_if_asked();
-    for (int k = 0; k < sweeps_a_draw; ++k) chain.sweep(sweeps_a_draw * draw + k);
+    for (int k = 0; k < sweeps_a_draw; ++k) chain.renew_all(sweeps_a_draw * draw + k, seldom);
     out.coefficients.col(draw) = chain.draw();
     out.noise_mm.push_back(chain.noise_mm());
     for (int n = 0; n <= terms.orders; ++n)
