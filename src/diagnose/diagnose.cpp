@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "base/threads.hpp"
 #include "diagnose/advise/advise.hpp"
@@ -18,6 +19,7 @@
 #include "diagnose/explain/quality.hpp"
 #include "diagnose/explain/stated.hpp"
 #include "diagnose/refit/delay_instead.hpp"
+#include "diagnose/refit/extended_fit.hpp"
 #include "diagnose/refit/searched.hpp"
 #include "fit/plausible.hpp"
 #include "measure/angles_alike.hpp"
@@ -44,6 +46,24 @@ Diagnosis not_diagnosable(Diagnosis out) {
           : "the surface was not found: its deviations cannot be diagnosed";
   out.next.why_not = out.noise.note;
   return out;
+}
+
+/// The model about the ideal fit, or about that of the readings that count, if some do not: a digit
+/// typed wrong moves the axis of 200 readings by 0.3 mm, whose second order looks like two lobes.
+/// @param about keeps that fit
+std::unique_ptr<IdealModel> about_readings_that_count(const ProbeStream& stream,
+                                                      const DiagnoseOptions& options,
+                                                      const FitResult& ideal,
+                                                      const DistinctValues& indicated,
+                                                      FitResult& about) {
+  auto out = std::make_unique<IdealModel>(stream, options, ideal, indicated);
+  if (out->masked.empty()) return out;
+  FitOptions bare = options.fit;  // a place is wanted, not its uncertainty
+  bare.influences.clear();
+  about = fit_cleaned(stream, bare, std::vector<double>(stream.size(), 0.0), out->mask, out->masked)
+              .fit;
+  if (!is_diagnosable(about)) return out;
+  return std::make_unique<IdealModel>(stream, options, about, indicated);
 }
 
 /// What the plan cannot see, and the next measurement.
@@ -197,7 +217,10 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
   });
   if (!is_diagnosable(out.baseline)) return not_diagnosable(std::move(out));
 
-  IdealModel ideal(stream, options, out.baseline, indicated);
+  FitResult about;
+  const std::unique_ptr<IdealModel> model =
+      about_readings_that_count(stream, options, out.baseline, indicated, about);
+  IdealModel& ideal = *model;
   Searched found = searched(ideal);
   const std::size_t columns = found.fit->joint().solution.columns.size();
   if (ideal.exclude_far_from(found.fit->residual_mm(), columns) ||

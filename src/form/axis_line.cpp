@@ -57,8 +57,7 @@ class Cylinder {
 
   std::vector<Side> walls() const {
     double largest = 0.0;
-    for (const CentrePoint& one : centres_)
-      largest = std::max(largest, std::hypot(x(one), y(one)));
+    for (const CentrePoint& one : centres_) largest = std::max(largest, std::hypot(x(one), y(one)));
     std::vector<Side> out;
     for (int k = 0; k < unknowns; ++k)
       out.push_back({Unknowns::Unit(unknowns, k), -wall * largest});
