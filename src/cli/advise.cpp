@@ -227,6 +227,7 @@ void add_advise(CLI::App* command, int& exit_code) {
       options->machine.verbose = options->verbose;
       options->machine.check = options->check;
       options->machine.noise_um = options->association.noise_um;
+      options->results.is_filled_in("--output");
       exit_code = options->machine.advise(options->results);
       return;
     }

@@ -20,16 +20,20 @@ CLI::Option* Results::add(CLI::App& command, const std::string& option, const st
       });
 }
 
-void Results::say(const std::string& option, const std::string& schema) {
+std::size_t Results::at(const std::string& option) const {
   const auto found = std::ranges::find(all_, option, &Result::option);
   expects(found != all_.end(), "a result of this command");
-  found->schema = schema;
+  return static_cast<std::size_t>(found - all_.begin());
 }
 
+void Results::say(const std::string& option, const std::string& schema) {
+  all_[at(option)].schema = schema;
+}
+
+void Results::is_filled_in(const std::string& option) { all_[at(option)].filled_in = true; }
+
 const std::string& Results::operator[](const std::string& option) const {
-  const auto found = std::ranges::find(all_, option, &Result::option);
-  expects(found != all_.end(), "a result of this command");
-  return found->place;
+  return all_[at(option)].place;
 }
 
 bool Results::printed() const {
@@ -37,7 +41,12 @@ bool Results::printed() const {
 }
 
 void Results::name_to(Outputs& outputs) const {
-  for (const Result& one : all_) outputs.may_write(one.place, one.schema);
+  for (const Result& one : all_) {
+    if (one.filled_in)
+      outputs.may_begin(one.place, "", one.schema);
+    else
+      outputs.may_write(one.place, one.schema);
+  }
 }
 
 void add_json(CLI::App& command, Results& results, const std::string& schema) {

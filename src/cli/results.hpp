@@ -37,12 +37,17 @@ class Results {
   void write(Outputs& outputs, const std::string& option, const Make& make) const {
     if (asked(option)) outputs.write((*this)[option], make());
   }
+  /// One that the user fills in afterwards: what is there is replaced only with `--force`.
+  void is_filled_in(const std::string& option);
   void name_to(Outputs& outputs) const;
 
  private:
   struct Result {
     std::string option, schema, place;
+    bool filled_in = false;
   };
+  std::size_t at(const std::string& option) const;
+
   std::deque<Result> all_;  ///< CLI11 writes into them: they stay where they are
 };
 

@@ -33,7 +33,7 @@ void write_probed(const ProbeStream& stream, const lathe::Scenario& scenario, Ou
                   const SimulateOptions& options, const lathe::Truth* truth = nullptr) {
   const Results& results = options.results;
   const std::string& place = results["--output"];
-  write_stream_csv(stream, outputs.open(place));
+  write_stream_csv(stream, outputs.open(place), simulated_stream);
   if (truth != nullptr) results.write(outputs, "--truth", [&] { return truth_json(*truth); });
   results.write(outputs, "--json",
                 [&] { return simulation_json(outputs, place, stream.size(), scenario.seed); });
@@ -132,7 +132,7 @@ void add_simulate(CLI::App* command, int& exit_code) {
   options->stream.add_range_to(*command);
   StreamOptions::add_ball_radius(*command, options->ball_radius_mm)->needs(diagnosis);
   auto* output =
-      results.add(*command, "-o,--output", "trueaxis.stream", "stream (CSV); - prints it");
+      results.add(*command, "-o,--output", simulated_stream, "stream (CSV); - prints it");
   compare->excludes(output);
   results.add(*command, "--truth", "trueaxis.truth", "true values of the virtual lathe (JSON)")
       ->needs(output);

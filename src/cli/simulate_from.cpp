@@ -35,7 +35,7 @@ int play(const SimulateOptions& options, const Diagnosis& diagnosis, const Probe
     if (options.noise_free) scenario.noise = lathe::Noise{};
     if (options.seed) scenario.seed = *options.seed;
     const lathe::Simulation simulation = lathe::simulate_at(scenario, measured);
-    write_stream_csv(simulation.stream, outputs.open(results["--output"]));
+    write_stream_csv(simulation.stream, outputs.open(results["--output"]), simulated_stream);
     results.write(outputs, "--truth", [&] { return truth_json(simulation.truth); });
   }
   results.write(outputs, "--json",

@@ -18,7 +18,7 @@ namespace {
 
 int simulate_measurement(SimulateOptions& options) {
   Results& results = options.results;
-  results.say("--output", "trueaxis.measurement");
+  results.say("--output", simulated_measurement);
   results.say("--json", "trueaxis.simulation");
   MeasurementScenario scenario = read_measurement_toml(options.scenario);
   if (options.seed) scenario.plan.seed = *options.seed;
@@ -90,7 +90,7 @@ void add_machine_simulate(CLI::App* command, int& exit_code) {
                    "program to cut instead of the one in [cut], which stays the nominal part")
       ->type_name("FILE");
   command->add_option("--seed", options->seed, "seed of the noise (default the scenario's)");
-  results.add(*command, "-o,--output", "trueaxis.measurement",
+  results.add(*command, "-o,--output", simulated_measurement,
               "measurement, or path of the tip in a cut (CSV); - prints it");
   results.add(*command, "--json", "trueaxis.cut",
               "judgement of a cut, or seed and number of rows (JSON); - prints it");

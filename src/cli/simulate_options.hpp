@@ -13,6 +13,10 @@
 
 namespace trueaxis::cli {
 
+/// What measured readings are not: a simulation is replaced without `--force`.
+inline constexpr const char* simulated_stream = "trueaxis.simulated_stream";
+inline constexpr const char* simulated_measurement = "trueaxis.simulated_measurement";
+
 /// Options of `trueaxis simulate`: a scenario, or the diagnosis of a part to be measured again.
 struct SimulateOptions {
   std::string scenario, diagnosis, table, program;

@@ -93,6 +93,24 @@ Pass net_pass(const ProbeStream& stream, std::size_t begin, std::size_t end) {
   return pass;
 }
 
+/// Whether the reading where two runs meet is the first of the second: the step to it, in time or
+/// C, is not as the one before it, while the step from it is as the next. The probe stood still
+/// before it, or the spindle turned on.
+bool begins_the_next(const ProbeStream& stream, std::size_t begin, std::size_t meet,
+                     std::size_t end) {
+  constexpr double of_a_clock = 1.5;  // steps of one run differ by less
+  if (meet < begin + 2 || meet + 2 >= end) return false;
+  for (const std::vector<double>* clock : {&stream.time_s, &stream.c_rad}) {
+    if (clock->empty()) continue;
+    const auto step = [&](std::size_t to) { return std::abs((*clock)[to] - (*clock)[to - 1]); };
+    const auto apart = [](double a, double b) { return std::abs(std::log(a / b)); };
+    const double into = apart(step(meet), step(meet - 1));
+    const double from = apart(step(meet + 1), step(meet + 2));
+    if (into > from + std::log(of_a_clock)) return true;
+  }
+  return false;
+}
+
 /// Passes of one set-up by the senses of motion; readings [begin, end).
 void passes_by_senses(const ProbeStream& stream, std::size_t begin, std::size_t end,
                       std::vector<Pass>& passes) {
@@ -108,10 +126,14 @@ void passes_by_senses(const ProbeStream& stream, std::size_t begin, std::size_t 
       if (!single) {
         Pass pass;
         pass.begin = next_reading;
-        pass.end = begin + b + 1;  // the reading where two runs meet belongs to the first
+        const std::size_t meet = begin + b;
+        pass.end = begins_the_next(stream, begin, meet, end) ? meet : meet + 1;
         pass.c_sign = sign_of(signs.c[a], 0.0);
         pass.feed_sign = sign_of(signs.feed[a], 0.0);
-        passes.push_back(pass);
+        if (pass.end - pass.begin == 1 && passes.size() > before)
+          passes.back().end = pass.end;
+        else
+          passes.push_back(pass);
         next_reading = pass.end;
       } else if (passes.size() > before) {
         passes.back().end = next_reading = begin + a + 1;

@@ -187,6 +187,21 @@ TEST(Passes, ReversedAfterAPauseAtOnePlace) {
   }
 }
 
+// The probe waited while the spindle changed its speed and turned on. The first reading back may be
+// at the Z of the last one, or a step further on: it belongs to the second speed, which a delay of
+// X is corrected with.
+TEST(Passes, TheFirstReadingAfterAWaitBeginsTheNext) {
+  for (const double turns : {0.3, 5.6})
+    for (const double back_mm : {0.0, -0.04}) {
+      const Plan plan = Plan()
+                            .move(400, 1.0 / 50, 0.04, 0.01)
+                            .jump(turns, back_mm, 3.0)
+                            .move(400, 1.0 / 50, -0.04, 0.004);
+      EXPECT_EQ(shape(find_passes(plan.stream)), "0-400 C+ Z+\n400-800 C+ Z-\n")
+          << turns << " " << back_mm;
+    }
+}
+
 TEST(Passes, StationaryCaptureIsAPassOfItsOwn) {
   const Plan plan = Plan().move(360, 1.0 / 36, 0.2 / 36).move(500, 0, 0);
   const auto passes = find_passes(plan.stream);

@@ -78,19 +78,27 @@ class StepwiseSearch::Engine {
 
   Model unless_noise(Model model) {
     if (model.terms.empty() || problem_.resolution.sparse) return model;
-    if (!correlated_)
-      correlated_ = NoiseEstimator(problem_.point, problem_.mask, problem_.deviation_mm, {},
-                                   problem_.threads)({})
-                        .phi;
-    model_ = {};
-    model_.phi = *correlated_;
-    finish();
-    const double alone = model_.criterion + static_cast<double>(model_.phi.size()) *
-                                                std::log(static_cast<double>(rows()));
-    if (!(alone + 2.0 * std::log(problem_.false_alarm) < model.criterion)) return model;
+    if (!free_noise_)
+      free_noise_.emplace(problem_.point, problem_.mask, problem_.deviation_mm,
+                          std::span<const Hypothesis>{}, problem_.threads);
+    Model alone = beside_free_noise({}), with = beside_free_noise(model.terms);
+    if (with.criterion < model.criterion) model.phi = with.phi, model.criterion = with.criterion;
+    if (!(alone.criterion + 2.0 * std::log(problem_.false_alarm) < model.criterion)) return model;
     model.terms.clear(), model.p_values.clear();
-    model.phi = model_.phi, model.criterion = alone;
+    model.phi = std::move(alone.phi), model.criterion = alone.criterion;
     return model;
+  }
+
+  /// Terms with a noise as free as the readings show it: what a basis takes of few readings, their
+  /// noise would not have.
+  Model beside_free_noise(const Terms& terms) {
+    model_ = {};
+    model_.terms = terms;
+    model_.phi = (*free_noise_)(terms).phi;
+    finish();
+    model_.criterion +=
+        static_cast<double>(model_.phi.size()) * std::log(static_cast<double>(rows()));
+    return std::move(model_);
   }
 
   // What infer/stepwise.hpp asks of a side.
@@ -349,7 +357,7 @@ class StepwiseSearch::Engine {
   const Problem& problem_;
   NoiseEstimator noise_;
   std::optional<std::vector<double>> first_noise_;
-  std::optional<std::vector<double>> correlated_;  ///< φ of the residuals of the surface alone
+  std::optional<NoiseEstimator> free_noise_;  ///< of the residuals of the surface, without a basis
   std::deque<Made> made_;
   Model model_;  ///< of the run
   bool patterns_ = false;

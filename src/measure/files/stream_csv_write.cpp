@@ -83,11 +83,11 @@ void expect_columns(const ProbeStream& stream) {
 
 }  // namespace
 
-void write_stream_csv(const ProbeStream& stream, OutputFile& sink) {
+void write_stream_csv(const ProbeStream& stream, OutputFile& sink, const char* schema) {
   expect_columns(stream);
   const bool face = stream.kind == StreamKind::face;
   const std::map<std::string, std::string> metadata = metadata_to_write(stream);
-  std::string text = "## schema: trueaxis.stream/1\n";
+  std::string text = std::string("## schema: ") + schema + "/1\n";
   for (const auto& [key, value] : metadata) text.append(metadata_line(key, value)) += '\n';
   // Doubling and halving are exact: a file that said diameter stays one, and the same stream.
   const auto convention = metadata.find("x_convention");

@@ -43,7 +43,7 @@ std::string measurement_csv(const Machine& machine, const virtual_machine::Measu
                             const std::vector<MeasuredRow>& rows) {
   const bool array = plan.kind == MeasurementKind::array;
   const std::vector<AxisName> axes = read_axes(machine, !array);
-  std::string text = "# schema: trueaxis.measurement/1\n";
+  std::string text = "# schema: trueaxis.simulated_measurement/1\n";
   text += fmt::format("# kind: {}\n", kinds[static_cast<int>(plan.kind)]);
   if (plan.noise_mm > 0.0) text += fmt::format("# noise: {:.9g} um\n", plan.noise_mm / mm_per_um);
   if (array || plan.kind == MeasurementKind::axis)
