@@ -71,12 +71,12 @@ class Averaging {
     for (const AmbiguousFinding& finding : findings_) of_finding(finding, next, out);
     for (std::size_t t = 0; t < terms_; ++t) of_slope(t, out);
     for (const LocalShapes& shapes : local_) of_local_form(shapes, next, out);
-    if (problem_.point.base
-            .face) {  // for a face the named model stays, with what rival causes would do
+    of_not_found(next, out);
+    if (problem_.point.base.face) {  // the named model stays, with what other causes would do
       out.within = wide_.base_covariance();
+      out.between += out.shift * out.shift.transpose();
       out.shift.setZero();
     } else {
-      of_not_found(next, out);
       if (terms_ == 0) {  // nothing was found: the ideal fit stays
         out.between += out.shift * out.shift.transpose();
         out.shift.setZero();
