@@ -41,11 +41,16 @@ bool moves_on(const std::vector<double>& column) {
   return 2 * static_cast<std::size_t>(distinct) > column.size();
 }
 
-/// How evenly C turns: 1, always by the same step; 1/√N, at random.
+/// How evenly C turns: 1, always by the same step, or by the same as the step before, of whichever
+/// sense; 1/√N, at random.
 double evenness_of_turning(const std::vector<double>& c_rad) {
-  std::complex<double> sum = 0.0;
-  for (std::size_t i = 1; i < c_rad.size(); ++i) sum += std::polar(1.0, c_rad[i] - c_rad[i - 1]);
-  return std::abs(sum) / static_cast<double>(c_rad.size() - 1);
+  std::complex<double> same = 0.0, as_before = 0.0, before = 0.0;
+  for (std::size_t i = 1; i < c_rad.size(); ++i) {
+    const std::complex<double> step = std::polar(1.0, c_rad[i] - c_rad[i - 1]);
+    same += step, as_before += step * std::conj(before);
+    before = step;
+  }
+  return std::max(std::abs(same), std::abs(as_before)) / static_cast<double>(c_rad.size() - 1);
 }
 
 /// Whether the steps of a column that never falls, or never rises, differ as those of sorted

@@ -55,6 +55,20 @@ std::vector<std::size_t> all_rows() {
   return rows;
 }
 
+// Out, and back with the spindle reversed, at four readings a turn: the steps of +85° and −85° add
+// up to nothing, as random ones do.
+TEST(ColumnOrder, AReversedSpindleIsNoShuffledColumn) {
+  ProbeStream stream = helix();
+  for (std::size_t i = 0; i < stream.c_rad.size(); ++i) {
+    const std::size_t way = std::min(i, stream.c_rad.size() - 1 - i);
+    stream.c_rad[i] = 85.0 * rad_per_deg * static_cast<double>(way);
+    stream.position_mm[i] = 0.05 * static_cast<double>(way);
+  }
+  EXPECT_EQ(column_out_of_order(stream), "");
+  shuffle(stream.c_rad);
+  EXPECT_NE(column_out_of_order(stream), "");
+}
+
 TEST(ColumnOrder, OneColumnShuffledOrSortedIsNamed) {
   ProbeStream c = helix(), z = helix(), x = helix(), falling = helix();
   shuffle(c.c_rad);
