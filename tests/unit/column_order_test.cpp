@@ -61,8 +61,9 @@ TEST(ColumnOrder, AReversedSpindleIsNoShuffledColumn) {
   ProbeStream stream = helix();
   for (std::size_t i = 0; i < stream.c_rad.size(); ++i) {
     const std::size_t way = std::min(i, stream.c_rad.size() - 1 - i);
-    stream.c_rad[i] = 85.0 * rad_per_deg * static_cast<double>(way);
-    stream.position_mm[i] = 0.05 * static_cast<double>(way);
+    const double back = way < i ? 0.3 : 0.0;
+    stream.c_rad[i] = 85.0 * rad_per_deg * static_cast<double>(way) + back;
+    stream.position_mm[i] = 0.05 * static_cast<double>(way) + back;
   }
   EXPECT_EQ(column_out_of_order(stream), "");
   shuffle(stream.c_rad);
