@@ -174,5 +174,23 @@ TEST(AveragedAxis, OfAFaceTheNamedModelStandsAndItsRivalsAreListed) {
   }
 }
 
+// A narrow ring shows no axial motion once per revolution: a face with that motion reads as one
+// that leans by a/R. It is there in a fifth of all faces, and its mean square is at least the
+// square of the middle of its range, 0.5-10 µm.
+TEST(AveragedAxis, OfAFaceHoldsWhatItsReadingsDoNotShow) {
+  Scenario s = probed_part(PartKind::face);
+  s.noise.sigma_mm = 0.001;
+  PlannedPass& pass = s.plan.passes[0];
+  pass.start_mm = 29.8, pass.end_mm = 30.2;
+  pass.feed_mm_per_rev = 0.02;
+  pass.readings_per_revolution = 24.3;
+  DiagnoseOptions options;
+  options.fit.surface = SurfaceKind::plane;
+  const Diagnosis d = diagnose(simulate(s), options);
+  const double open = std::sqrt(0.2 * 5e-4 * 0.01) / 30.0;
+  EXPECT_GT(d.extended.axis.u_slopes(), 0.9 * open);
+  EXPECT_LT(d.named.axis.u_slopes(), 0.1 * open);
+}
+
 }  // namespace
 }  // namespace trueaxis::testing
