@@ -88,7 +88,9 @@ struct AxisReadOut {
   std::optional<Estimate> reversal;
   double low = 0.0, high = 0.0;  ///< range of the commanded positions
   double rms_before = 0.0, rms_after = 0.0;
-  double noise = 0.0;  ///< σ of a reading as the residuals show it, mm or rad
+  double noise = 0.0;         ///< σ of a reading as the residuals show it, mm or rad
+  double stated_noise = 0.0;  ///< the same as the file states it; 0: it does not
+  double freedom = 0.0;       ///< of the residuals
 };
 
 struct CalibrationOptions {

@@ -95,6 +95,7 @@ struct ProgramCompensation {
   std::vector<UnreachableBlock> unreachable;
   std::vector<ErrorAlone> by_error;       ///< the largest first
   std::optional<LargestInProgram> u_tip;  ///< standard uncertainty, where the errors have u
+  std::vector<std::string> remarks;       ///< what it assumes of the control
   std::vector<ProgramEnd> ends;           ///< of every move that is reached, where they are wanted
 
   /// The largest deviation of the actual tip on the whole path, ends of blocks and between them,

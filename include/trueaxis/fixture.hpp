@@ -111,6 +111,9 @@ struct ProbedDatum {
   /// few points (JCGM 100, G.3).
   Covariance covariance;
   double rms_mm = 0.0;  ///< of the points about the plane
+  /// Derivatives of its errors by those of the datums before it, in the order of
+  /// `datum_error_names`; 0 of a plane that was associated alone. `covariance` presupposes these.
+  std::array<std::array<double, 6>, 3> by_before{};
 };
 
 /// The plane `k` (0, 1, 2: YZ, ZX, XY) through points of the design frame, least squares along its
@@ -118,5 +121,10 @@ struct ProbedDatum {
 /// plane.
 ProbedDatum fit_datum(std::size_t plane, std::span<const Vector3> points_mm,
                       const std::string& source);
+
+/// The same under the constraint of ISO 5459: square to the datums before it, XY first, then ZX
+/// (Eq. 333).
+ProbedDatum fit_datum_after(const DatumErrors& before, std::size_t plane,
+                            std::span<const Vector3> points_mm, const std::string& source);
 
 }  // namespace trueaxis

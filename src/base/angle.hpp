@@ -22,4 +22,9 @@ inline bool is_quarters_in_radians(double deg) {
          std::abs(std::remainder(size, 0.25 * two_pi)) < rounded;
 }
 
+/// Whether a range of degrees is a turn in radians, rounded: 6.28.
+inline bool is_turn_in_radians(double deg) {
+  return is_quarters_in_radians(deg) && deg > 1.9 * 0.5 * two_pi;
+}
+
 }  // namespace trueaxis

@@ -80,11 +80,13 @@ int execute(const CompensateArguments& options) {
   const ProgramCompensation result =
       compensate_program(model, std::move(text), options.program, task);
   waiting.reset();
+  std::vector<std::string>& remarks = of_files.remarks;
+  remarks.insert(remarks.end(), result.remarks.begin(), result.remarks.end());
   if (result.blocks_moved == 0)
     throw InputError(options.program,
                      "moves no axis of the machine: name the program that cuts the part");
   results.write(outputs, "--json",
-                [&] { return compensation_json(result, task, inputs, of_files.remarks); });
+                [&] { return compensation_json(result, task, inputs, remarks); });
   const bool worse = result.unreachable.empty() && result.comes_out_worse();
   if (result.unreachable.empty() && !worse) outputs.open(results["--output"]).write(result.text);
   outputs.commit();
@@ -92,9 +94,9 @@ int execute(const CompensateArguments& options) {
   if (worse) throw Refusal(options.program + ": " + worse_text(result, task));
   if (results.printed()) return done;
   if (options.verbose)
-    std::cout << compensation_text(result, task) << notes_screen(of_files.remarks);
+    std::cout << compensation_text(result, task) << notes_screen(remarks);
   else
-    print_screen(with_notes(compensation_screen(result, task), of_files.remarks));
+    print_screen(with_notes(compensation_screen(result, task), remarks));
   std::cout << results.line("program ", "--output") << results.line("result  ", "--json");
   return done;
 }

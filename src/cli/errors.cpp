@@ -12,6 +12,7 @@
 #include "format/notes.hpp"
 #include "format/outputs.hpp"
 #include "machine/files/errors_files.hpp"
+#include "machine/limits.hpp"
 #include "machine/sampled_errors.hpp"
 #include "trueaxis/error.hpp"
 
@@ -76,8 +77,13 @@ int execute(const ErrorsArguments& options) {
   if (options.format == "toml" && !options.output_sign.empty())
     throw CLI::ValidationError("--output-sign", "is for --format etalon or isg");
   const MachineFile file = options.machine.read_machine();
-  const auto [errors, hashes, remarks] = options.machine.read_errors_of(file);
+  auto [errors, hashes, remarks] = options.machine.read_errors_of(file);
   const AxisPositions at = positions_of(options.at, file.machine);
+  const std::string beyond = outside_known(errors, at);
+  if (!beyond.empty() && !options.at.empty()) throw Refusal("--at: " + beyond);
+  if (!beyond.empty()) remarks.push_back(beyond + ": say another position by --at");
+  if (options.format != "toml")
+    for (std::string& one : where_known(file.machine, errors)) remarks.push_back(std::move(one));
   Outputs outputs(results.force);
   outputs.reads(options.machine.machine);
   for (const std::string& path : options.machine.errors) outputs.reads(path);

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   using namespace trueaxis;
   platform::keep_freed_memory();
   FLAGS_logtostderr = true;
+  FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres says is in FitStatus
   google::InitGoogleLogging(argv[0]);
   const std::vector<std::string> words = platform::begin_program(argc, argv);
   const bool dropped = cli::are_files(words);

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/counted.hpp"
 #include "base/threads.hpp"
 #include "compensate/between.hpp"
 #include "compensate/block_end.hpp"
@@ -139,6 +140,7 @@ class NewProgram {
     out.blocks_moved =
         static_cast<std::size_t>(std::ranges::count(moves_, false, &nc::Move::inserted));
     rank(out, tally);
+    state_skipped(out.remarks);
     list_worse(out.worse);
     if (task_.options.keep_ends) keep_ends(out);
     if (out.unreachable.empty()) write(out);
@@ -212,6 +214,19 @@ class NewProgram {
     std::ranges::stable_sort(out.by_error, std::ranges::greater{},
                              [](const ErrorAlone& one) { return one.tip.value; });
     if (task_.uncertainty.stated()) out.u_tip = tally.u_tip;
+  }
+
+  void state_skipped(std::vector<std::string>& remarks) const {
+    std::vector<std::uint32_t> lines;
+    for (const nc::Move& move : moves_)
+      if (task_.program.lines[move.line].skip != 0 && (lines.empty() || lines.back() != move.line))
+        lines.push_back(move.line);
+    if (lines.empty()) return;
+    remarks.push_back("run the new program with block skip off, as " +
+                      counted(lines.size(), "block that begins with '/' moves axes",
+                              "blocks that begin with '/' move axes") +
+                      " (first in line " + std::to_string(lines.front() + 1) +
+                      "): TrueAxis assumes that the control carries them out");
   }
 
   void keep_ends(ProgramCompensation& out) const {

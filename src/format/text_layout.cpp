@@ -49,6 +49,7 @@ std::string wrapped(const std::string& head, std::string_view text, std::size_t 
 std::string um(double length_mm) {
   if (!std::isfinite(length_mm)) return "not determined";
   if (std::abs(length_mm) >= 0.9995) return fmt::format("{:.3g} mm", length_mm);
+  if (std::abs(length_mm) < 1e-9) return "0 µm";  // rounding
   return fmt::format("{:.3g} µm", length_mm / mm_per_um);
 }
 
@@ -72,7 +73,9 @@ std::string plus_minus(const Estimate& estimate, double coverage_factor, double 
     return fmt::format("{:.4g}", scale * estimate.value) + behind + why;
   }
   const int decimals = decimals_of(U, 0);
-  return fmt::format("{0:.{2}f} ± {1:.{2}f}{3}", scale * estimate.value, U, decimals, behind);
+  const double value = scale * estimate.value;
+  const bool zero = std::abs(value) * std::pow(10.0, decimals) <= 0.5;  // without a sign
+  return fmt::format("{0:.{2}f} ± {1:.{2}f}{3}", zero ? 0.0 : value, U, decimals, behind);
 }
 
 std::string probability(double value) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace trueaxis {
 
 double limit_slack(const MachineAxis& axis) {
@@ -27,13 +29,34 @@ std::string outside_limits(const Machine& machine, const AxisPositions& axes) {
   return text;
 }
 
-std::string outside_known(const ErrorModel& errors, const AxisPositions& axes) {
-  constexpr double slack = 0.1;
+namespace {
+
+PositionRange known_range(const ErrorTerm& term) {
+  if (!term.known_over || !term.name.component) return everywhere;
+  const auto [low, high] = *term.known_over;
+  const double more = 0.1 * (high - low);
+  return {low - more, high + more};
+}
+
+}  // namespace
+
+PositionRange known_range(const ErrorModel& errors, AxisName axis) {
+  PositionRange range = everywhere;
   for (const ErrorTerm& term : errors.terms) {
-    if (!term.known_over || !term.name.component) continue;
+    if (term.name.body != index_of(axis)) continue;
+    const PositionRange one = known_range(term);
+    range = {std::max(range.low, one.low), std::min(range.high, one.high)};
+  }
+  return range;
+}
+
+std::string outside_known(const ErrorModel& errors, const AxisPositions& axes) {
+  for (const ErrorTerm& term : errors.terms) {
+    const PositionRange range = known_range(term);
+    if (term.name.body >= axis_count) continue;
+    const double position = axes[term.name.body];
+    if (position >= range.low && position <= range.high) continue;
     const auto [low, high] = *term.known_over;
-    const double position = axes[term.name.body], more = slack * (high - low);
-    if (position >= low - more && position <= high + more) continue;
     const auto axis = static_cast<AxisName>(term.name.body);
     const double unit = is_rotary(axis) ? rad_per_deg : 1.0;
     return fmt::format("{} at {:.6g} {} is beyond {:.6g} to {:.6g}, where its {} was measured",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "trueaxis/machine.hpp"
@@ -20,10 +21,14 @@ struct SampledErrors {
 /// Every axis that has component errors, in the order X … C, with the sign asked for: where it is
 /// not the model's own, E of an axis of the workpiece is inverted at every position, exactly. The
 /// positions are those of the tables, and for anything that is not a table `points` over the limits
-/// of the axis (a rotary axis without limits: one turn). @throws InputError for a linear axis
-/// without limits whose errors are not tables.
+/// of the axis. A rotary axis without limits has one turn, if its errors repeat every turn.
+/// Positions go as far as the errors are known. @throws InputError for an axis without either whose
+/// errors are not tables.
 std::vector<SampledErrors> sample_components(const Machine& machine, const ErrorModel& errors,
                                              ErrorSign sign, int points);
+
+/// What such a table cannot state: beyond which positions its errors are not known.
+std::vector<std::string> where_known(const Machine& machine, const ErrorModel& errors);
 
 /// How far such tables, linear between their positions, are off the errors at most.
 struct SamplingLoss {

@@ -34,9 +34,9 @@ class LineReader {
     line_.first_word = static_cast<std::uint32_t>(words_.size());
     skip_blanks();
     if (peek() == '/') {
-      line_.skippable = true;
+      line_.skip = '/';
       ++at_;
-      if (is_digit(peek())) ++at_;
+      if (is_digit(peek())) line_.skip = text_[at_++];
     }
     while (!lost_) {
       skip_blanks();
@@ -179,6 +179,12 @@ bool is_tape_mark(std::string_view text, const Line& line) {
   return at < line.end && text[at] == '%';
 }
 
+bool has_words(std::string_view text, Line line) {
+  std::vector<Word> words;
+  LineReader(text, line, words).read();
+  return !words.empty();
+}
+
 }  // namespace
 
 Lexed lex(std::string_view text, const std::string& file, std::vector<Diagnostic>& wrong) {
@@ -188,6 +194,7 @@ Lexed lex(std::string_view text, const std::string& file, std::vector<Diagnostic
   out.lines = split(text);
   out.words.reserve(text.size() / 8);
   int tape_marks = 0;
+  std::size_t after = 0;  // number of the first line that no control reads
   for (std::size_t i = 0; i < out.lines.size(); ++i) {
     Line& line = out.lines[i];
     line.first_word = static_cast<std::uint32_t>(out.words.size());
@@ -195,11 +202,18 @@ Lexed lex(std::string_view text, const std::string& file, std::vector<Diagnostic
       ++tape_marks;
       continue;
     }
-    if (tape_marks > 1) continue;
+    if (tape_marks > 1) {
+      if (after == 0 && has_words(text, line)) after = i + 1;
+      continue;
+    }
     LineReader reader(text, line, out.words);
     for (auto& [at, why] : reader.read())
       wrong.push_back({file, i + 1, column_of(text, line, at), std::move(why)});
   }
+  if (after > 0)
+    wrong.push_back({file, after, 1,
+                     "is after the second '%', where a control stops: make this part a program of "
+                     "its own, or remove it"});
   return out;
 }
 

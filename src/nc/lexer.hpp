@@ -26,8 +26,13 @@ struct Line {
   std::uint32_t begin = 0, end = 0;  ///< [begin, end); its line end follows
   std::uint32_t first_word = 0;
   std::uint16_t word_count = 0;
-  bool skippable = false;   ///< begins with '/'
+  char skip = 0;            ///< the digit after a '/' at its start, '/' where there is none
   bool has_blanks = false;  ///< outside of comments
+
+  std::string skip_text() const {
+    if (skip == 0) return "";
+    return skip == '/' ? "/" : std::string{'/', skip};
+  }
 };
 
 /// A program taken apart. The lines and their ends are the text: nothing is lost.
@@ -37,8 +42,8 @@ struct Lexed {
 };
 
 /// Takes a program apart: words, comments `( )` and `;`, `/` (and a digit) at the start, `%` lines;
-/// anything after the second `%` is not a program and has no words. What cannot be read is added
-/// to `wrong`, and the rest of that line is left.
+/// words after the second `%`, which a control does not read, are wrong. What cannot be read is
+/// added to `wrong`, and the rest of that line is left.
 Lexed lex(std::string_view text, const std::string& file, std::vector<Diagnostic>& wrong);
 
 /// Place of a byte as a diagnostic tells it: 1-based character of its line.

@@ -28,7 +28,7 @@ std::string skeleton_of(std::string_view text) {
       axes = true;
     }
     out.append(text.substr(copied, line.end - copied));
-    if (axes && out.find_first_not_of("/ \t", begin) == std::string::npos)
+    if (axes && out.find_first_not_of("/0123456789 \t", begin) == std::string::npos)
       out.resize(begin);
     else
       out += '\n';

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "nc/block_skip.hpp"
 #include "nc/number_text.hpp"
 #include "trueaxis/error.hpp"
 
@@ -25,7 +26,8 @@ class Writer {
       : program_(program),
         options_(options),
         source_(program.text),
-        in_force_(program.start_words) {
+        in_force_(program.start_words),
+        skip_(program) {
     out_.text.reserve(source_.size() + source_.size() / 2);
   }
 
@@ -39,11 +41,11 @@ class Writer {
       copy_to(line.begin);
       const std::size_t first = next;
       while (next < positions.size() && program_.moves[positions[next].move].line == i) ++next;
-      if (next == first) continue;
-      if (program_.moves[positions[first].move].cycle)
-        write_cycle(line, positions.subspan(first, next - first));
-      else
-        write_block(line, positions.subspan(first, next - first));
+      const auto moves = positions.subspan(first, next - first);
+      if (!moves.empty())
+        program_.moves[moves.front().move].cycle ? write_cycle(line, moves)
+                                                 : write_block(line, moves);
+      skip_.pass(i);
     }
     copy_to(source_.size());
     if (!wrong_.empty()) throw InputError(std::move(wrong_));
@@ -98,7 +100,7 @@ class Writer {
 
   void begin_step(const Line& line) {
     out_.text += line_end_of(line);
-    if (line.skippable) out_.text += '/';
+    out_.text += line.skip_text();
     words_ = 0;
   }
 
@@ -151,6 +153,7 @@ class Writer {
       } else if (axis < axis_count && has(move.named, axis)) {
         NewNumber now = new_number(move, axis, position.words[axis], options_);
         now.stays = now.stays && !move.modal.incremental;  // its text is a distance under G91
+        if (move.modal.incremental) check_sure(line, axis);
         replace_number(word, now, axis);
       } else {
         copy_to(word.end);
@@ -195,7 +198,7 @@ class Writer {
   void write_piece(const Line& line, const NewPosition& position, bool first) {
     const Move& move = program_.moves[position.move];
     const std::size_t begin = out_.text.size();
-    if (line.skippable) out_.text += '/';
+    out_.text += line.skip_text();
     words_ = 0;
     if (first && move.sets) repeat_words(line, move);
     add_axes(line, move, position);
@@ -305,11 +308,12 @@ class Writer {
   }
 
   /// Words of the axes whose output changed.
-  void add_axes(const Line& line, const Move& move, const NewPosition& position) {
+  void add_axes(const Line& line, const Move& step, const NewPosition& position) {
     for (std::size_t k = 0; k < axis_count; ++k) {
       if (!has(options_.axes, k)) continue;
-      const NewNumber now = new_number(move, k, position.words[k], options_);
+      const NewNumber now = new_number(step, k, position.words[k], options_);
       if (!is_new(k, now)) continue;
+      if (!step.cycle || !has(step.named, k)) check_sure(line, k);
       separate(line);
       append(axis_letters[k], now);
       in_force_[k] = now.value;
@@ -322,6 +326,7 @@ class Writer {
       if (has(move.named, k) || !has(options_.axes, k)) continue;
       const NewNumber now = new_number(move, k, position.words[k], options_);
       if (!is_new(k, now)) continue;
+      check_sure(line, k);
       if (line.has_blanks) out_.text += ' ';
       append(axis_letters[k], now);
       in_force_[k] = now.value;
@@ -339,7 +344,7 @@ class Writer {
   }
 
   std::string_view line_end_of(const Line& line) const {
-    const auto index = static_cast<std::size_t>(&line - program_.lines.data());
+    const std::size_t index = index_of(line);
     const std::size_t next =
         index + 1 < program_.lines.size() ? program_.lines[index + 1].begin : source_.size();
     if (next > line.end) return source_.substr(line.end, next - line.end);
@@ -350,6 +355,16 @@ class Writer {
     return {program_.words.data() + line.first_word, line.word_count};
   }
 
+  /// A new word of an axis that a block moves which the control may skip would move it there.
+  void check_sure(const Line& line, std::size_t axis) {
+    if (std::string why = skip_.trouble(index_of(line), axis); !why.empty())
+      complain(line, std::move(why));
+  }
+
+  std::size_t index_of(const Line& line) const {
+    return static_cast<std::size_t>(&line - program_.lines.data());
+  }
+
   void check_length(const Line& line, std::size_t length) {
     if (length > longest_line)
       complain(line,
@@ -357,8 +372,7 @@ class Writer {
                    " characters, and LinuxCNC takes 251: shorten it or ask for fewer decimals");
   }
   void complain(const Line& line, std::string why) {
-    const auto index = static_cast<std::size_t>(&line - program_.lines.data());
-    wrong_.push_back({program_.file, index + 1, 1, std::move(why)});
+    wrong_.push_back({program_.file, index_of(line) + 1, 1, std::move(why)});
   }
 
   const Program& program_;
@@ -371,7 +385,8 @@ class Writer {
   double pieces_ = 1.0;
   int words_ = 0;               ///< of the line that is made
   bool cycles_change_ = false;  ///< canned cycles are written as G0 and G1
-  bool rapid_ = true;           ///< of a cycle that is written, the motion in force
+  BlockSkip skip_;
+  bool rapid_ = true;  ///< of a cycle that is written, the motion in force
 };
 
 }  // namespace

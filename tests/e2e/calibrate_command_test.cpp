@@ -45,6 +45,23 @@ TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
 }
 
+// Residuals of ±0.5 µm, and one of 15 µm: of 31 readings an RMS of 2.7 µm, five times the noise.
+TEST_F(CalibrateCommand, AReadOutBeyondItsNoiseIsUnexplained) {
+  for (const double outlier_um : {0.0, 15.0}) {
+    std::string text = "# kind: axis\n# axis: X\n# noise: 0.5 um\ncommand[mm],error[um]\n";
+    for (int i = 0; i < 31; ++i)
+      text += std::to_string(20 * i - 300) + "," +
+              std::to_string((i % 2 == 0 ? 0.5 : -0.5) + (i == 12 ? outlier_um : 0.0)) + "\n";
+    file("x.csv", text);
+    const auto done =
+        command(line({"machine calibrate --machine", machine_, "x.csv -o x.toml --force"}));
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_TRUE(done.out.starts_with(
+        outlier_um > 0.0 ? "UNEXPLAINED: position errors found, read-out of X " : "DONE: "))
+        << done.out;
+  }
+}
+
 // The virtual machine shares no formula with the model that is fitted. Four u are exceeded by one
 // estimate in 16 000.
 TEST_F(CalibrateCommand, FindsWhatTheVirtualMachineHides) {

@@ -194,6 +194,17 @@ TEST_F(CompensateCommand, SeesAnErrorThatBendsBetweenItsPieces) {
   EXPECT_TRUE(contains(done.out + done.err, "more pieces")) << done.out << done.err;
 }
 
+TEST_F(CompensateCommand, SaysWhichBlocksMayBeSkipped) {
+  const CommandStreams done = compensate(
+      "p.nc", "G1 X0 Y0 Z0 A0 C0 F500\n/3 X9 Y0 Z0 A0 C0\n/X10 Y0 Z0 A0 C0\nX1 Y2 Z0 A0 C0\n",
+      of_trunnion + "-o out.nc --json r.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  for (const std::string& text : {done.out, result("r.json").at("remarks").dump()})
+    EXPECT_NE(text.find("with block skip off, as 2 blocks that begin with '/' move axes (first in"),
+              std::string::npos)
+        << text;
+}
+
 TEST_F(CompensateCommand, RanksTheErrors) {
   ASSERT_EQ(compensate("p.nc", hole, of_trunnion + "-o out.nc --json r.json").exit_code, 0);
   const auto json = result("r.json");

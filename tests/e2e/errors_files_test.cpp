@@ -155,6 +155,39 @@ TEST_F(ErrorsFiles, ATableOfAWholeTurnGoesRound) {
   }
 }
 
+// A format without a place for it: the table goes as far as programs may, and the screen says so.
+TEST_F(ErrorsFiles, ATableStatesHowFarItsErrorsAreKnown) {
+  file("known.toml",
+       "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n[[error]]\nname = \"EXX\"\n"
+       "kind = \"polynomial\"\ncoefficients_um = [0, 10, 30]\nscale_mm = 300\n"
+       "known_mm = [-100, 100]\n");
+  const CommandStreams done =
+      command("machine errors --machine " + machine_ +
+              " --errors known.toml --format isg --output-sign moving_part -o known.csv");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("the table of X covers -120 to 120 mm, beyond which"), std::string::npos);
+  const std::string text = read_text(folder_ / "known.csv");
+  EXPECT_NE(text.find("\n-120 "), std::string::npos) << text;
+  EXPECT_TRUE(text.substr(0, text.size() - 1).rfind("\n120 ") != std::string::npos) << text;
+  EXPECT_EQ(text.find("\n-2"), std::string::npos) << text;
+}
+
+// Written in steps from 0, the last step to 360° is not there.
+TEST_F(ErrorsFiles, ATableOfAWholeTurnButForAStepGoesRound) {
+  std::string isg = "C EXC\n";
+  for (int k = 0; k < 36; ++k)
+    isg += std::to_string(10 * k) + " " + std::to_string(1e-3 * std::min(k, 36 - k)) + "\n";
+  file("steps.csv", isg);
+  for (const auto& [deg, um] : {std::pair{-90.0, 9.0}, {355.0, 0.5}, {450.0, 9.0}, {20.0, 2.0}}) {
+    const CommandStreams done =
+        command("machine errors --machine " + machine_ +
+                " --errors steps.csv --sign moving_part --json - --at C=" + std::to_string(deg));
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const double value = nlohmann::json::parse(done.out).at("component").at("EXC").at("value");
+    EXPECT_NEAR(value, 1e-3 * um, 1e-9) << deg;
+  }
+}
+
 // Sizes that no machine has are refused (tests/refusals/errors_*), and accepted if the file, the
 // command line or a job says that they are intended; what is written of them is read again.
 TEST_F(ErrorsFiles, AsLargeAsNoMachineHasThemOnlyWhereItIsSaid) {

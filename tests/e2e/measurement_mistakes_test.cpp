@@ -179,6 +179,11 @@ TEST_F(MeasurementMistakes, UnitsOfThePositions) {
   expect_refused({"the column C is in degrees", "write C[deg]"});
   rows(scaled({"A"}, 3.14159265358979 / 180.0));
   expect_refused({"the column A is in radians", "write A[rad]"});
+  rows([](Fields& at) {  // two units at once
+    scaled({"A", "C"}, 3.14159265358979 / 180.0)(at);
+    scaled({"X", "Y", "Z"}, 1e3)(at);
+  });
+  expect_refused({"no machine model fits the readings", "check the units of deviations and"});
   rows(scaled({"X"}, 1.0 / 25.4));
   expect_refused({"the column X is in inch", "write X[in]"});
 }

@@ -81,6 +81,7 @@ TEST(NcLossless, ChangedWordsSayTheNewPositions) {
   ProgramMaker maker(seed);
   std::mt19937_64 random(seed);
   std::normal_distribution<double> change(0.0, 0.02);
+  int written_programs = 0;
   for (int trial = 0; trial < 500; ++trial) {
     const Program program = read_program(maker.next(20), "random.nc", xyzac());
     std::vector<NewPosition> positions = unchanged(program);
@@ -88,7 +89,14 @@ TEST(NcLossless, ChangedWordsSayTheNewPositions) {
       for (const std::size_t k : {0, 1, 2, 3, 5})
         if (maker.one_in(2))
           position.words[k] += change(random) * (is_rotary(k) ? rad_per_deg : 1.0);
-    const Written written = write_program(program, positions, of_xyzac());
+    Written written;
+    try {
+      written = write_program(program, positions, of_xyzac());
+    } catch (const InputError& error) {  // a new word of an axis that a '/' leaves unsure
+      ASSERT_NE(std::string(error.what()).find("if the control skips"), std::string::npos);
+      continue;
+    }
+    ++written_programs;
     const Program again = read_program(written.text, "written.nc", xyzac());
     ASSERT_EQ(other_words(again), other_words(program)) << pasted(program.text);
     ASSERT_EQ(again.lines.size(), program.lines.size());
@@ -106,6 +114,7 @@ TEST(NcLossless, ChangedWordsSayTheNewPositions) {
       }
     }
   }
+  EXPECT_GT(written_programs, 100);
 }
 
 TEST(NcLossless, RandomBytesAreReadOrRefused) {

@@ -156,7 +156,8 @@ TEST(NcReader, GoesHomeUnderG91) {
 }
 
 TEST(NcReader, BehindTheSecondPercentIsNoProgram) {
-  EXPECT_EQ(places("%\nG0 X1 Y1 Z1 A1 C1\n%\nG2 [#1] nonsense\n"), "");
+  EXPECT_EQ(places("%\nG0 X1 Y1 Z1 A1 C1\n%\nfree text [#1]\n"), "");
+  EXPECT_EQ(places("%\nG0 X1 Y1 Z1 A1 C1\n%\nfree text\n%\nG0 X2\nX3\n%\n"), "6:1");
 }
 
 /// Distance of the chords from the arc, and of their ends from it, by the arc's own equation.

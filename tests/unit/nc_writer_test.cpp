@@ -115,6 +115,46 @@ TEST(NcWriter, PiecesAreLinesOfAxisWords) {
             "G0 X0 Y0 Z0 A0 C0\nG90 G1 F50 S100 M3 X2.0000\nN20 G90 G1 X4 F50 S100 M3 M0\n");
 }
 
+// A control skips `/3` by another switch than `/`: a line of the block goes with it.
+TEST(NcWriter, LinesOfABlockAreSkippedWithIt) {
+  const std::string first = "G0 X0 Y0 Z9 A0 C0 F100\n";
+  EXPECT_EQ(split(first + "/3 G1 X4", 2), first + "/3G1 X2.0000\n/3 G1 X4");
+  const std::string cycle = moved("G0 X0 Y0 Z9 A0 C0\n/3 G81 X1 Y2 Z-3 R1 F50\n", {0.5});
+  EXPECT_EQ(cycle,
+            "G0 X0.5000 Y0 Z9 A0 C0\n/3 G0 X1.5000 Y2 F50\n/3Z1.0000\n/3G1 Z-3.0000\n"
+            "/3G0 Z9.0000\n");
+}
+
+/// A program with Y moved by 0.1 mm where X was moved.
+std::string leaning(const std::string& text) {
+  const Program program = read_program(text, "p.nc", xyzac());
+  std::vector<NewPosition> positions;
+  for (std::size_t i = 0; i < program.moves.size(); ++i) {
+    positions.push_back({static_cast<std::uint32_t>(i), false, program.moves[i].words});
+    positions.back().words[0] += 1e-3 * program.moves[i].words[1];
+    positions.back().words[1] += 1e-3 * program.moves[i].words[0];
+  }
+  WriteOptions options;
+  options.axes = xyzac().axes;
+  return write_program(program, positions, options).text;
+}
+
+TEST(NcWriter, NoNewWordMovesAnAxisThatASkippedBlockMoves) {
+  const std::string first = "G1 X0 Y0 Z9 A0 C0 F100\n";
+  // X is where its word says if it goes with the same switch, is moved back, or is named again.
+  for (const char* sure : {"/X9\n/Y5\n", "/2 X9\n/2 X0\nY5\n", "/X9\nX8 Y5\nY6\n"})
+    EXPECT_NO_THROW(leaning(first + sure)) << sure;
+  for (const char* unsure : {"/X9\nY5\n", "/X9\n/2 Y5\n", "/2 X9\n/3 X0\nY5\n"}) {
+    try {
+      leaning(first + unsure);
+      ADD_FAILURE() << unsure;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("give X in this block"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 // G64 without its P is another path; M3 without it another spindle.
 TEST(NcWriter, PiecesKeepThePOfTheirCode) {
   const std::string written = split("G1 X0 Y0 Z0 A0 C0\nG64 P0.01 G1 X2 F500\n", 2);

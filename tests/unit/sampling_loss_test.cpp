@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "machine/sampled_errors.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -38,6 +40,51 @@ TEST(SamplingLoss, OfAStraightLineIsNothing) {
   ErrorModel errors;
   errors.terms = {{{true, 0, 0}, PolynomialError{{0.0, 1e-4}, 0.0, 1.0}, 0.0}};
   EXPECT_LT(sampling_loss(machine, errors, errors.sign, 11).length_mm, 1e-15);
+}
+
+/// Table positions of one axis, in its unit.
+std::vector<double> table_of(const std::vector<ErrorTerm>& terms, double low, double high) {
+  Machine machine;
+  std::vector<ChainTrouble> none;
+  machine.chain = "w A' b X Y Z t";
+  machine.axes = parse_chain(machine.chain, none);
+  for (MachineAxis& axis : machine.axes)
+    if (index_of(axis.name) == terms.front().name.body) axis.low = low, axis.high = high;
+  ErrorModel errors;
+  errors.terms = terms;
+  return sample_components(machine, errors, errors.sign, 11).front().positions;
+}
+
+// As far as `outside_known` lets a program go: a tenth of the range beyond its ends.
+TEST(SampledErrors, GoAsFarAsTheyAreKnown) {
+  const ErrorTerm known{{true, 0, 0}, PolynomialError{{0.0, 1e-2}, 0.0, 100.0}, 0.0, {{-100, 100}}};
+  const ErrorTerm table{{true, 1, 0}, TableError{{-300.0, 0.0, 90.0}, {0.0, 0.0, 0.0}}, 0.0};
+  const std::vector<double> at = table_of({known, table}, -400.0, 110.0);
+  EXPECT_NEAR(at.front(), -120.0, 1e-12);
+  EXPECT_NEAR(at.back(), 110.0, 1e-12);
+}
+
+// Over 0 … 360° alone A-80 would be 280, where a polynomial is another number.
+TEST(SampledErrors, OfATurnOnlyWhatRepeatsEveryTurn) {
+  const double none = std::numeric_limits<double>::infinity(), deg = rad_per_deg;
+  const ErrorName a{true, 0, index_of(AxisName::A)};
+  const ErrorTerm square{a, PolynomialError{{0.0, 0.0, 2e-2}, 0.0, 0.5 * two_pi}, 0.0};
+  const ErrorTerm wave{a, FourierError{{{2.0, 1e-3, 0.0}}, two_pi}, 0.0};
+  const ErrorTerm round{a, TableError{{0.0, 0.5 * two_pi, two_pi}, {0.0, 1e-3, 0.0}, true}, 0.0};
+  const ErrorTerm ends{a, TableError{{-80 * deg, 20 * deg}, {0.0, 1e-3}}, 0.0};
+  ErrorTerm known = square;
+  known.known_over = {-80.0 * deg, 20.0 * deg};
+  EXPECT_EQ(table_of({wave}, -none, none).back(), two_pi);
+  EXPECT_EQ(table_of({round}, -none, none).size(), 3U);
+  EXPECT_EQ(table_of({ends}, -none, none).size(), 2U);
+  for (const auto& wrong :
+       {std::vector{square}, std::vector{round, square}, std::vector{round, ends}})
+    EXPECT_THROW(table_of(wrong, -none, none), InputError);
+  for (const auto& terms : {std::vector{known}, std::vector{round, known}}) {
+    const std::vector<double> at = table_of(terms, -none, none);
+    EXPECT_NEAR(at.front(), -90.0 * deg, 1e-12);
+    EXPECT_NEAR(at.back(), 30.0 * deg, 1e-12);
+  }
 }
 
 }  // namespace

@@ -169,6 +169,7 @@ JointFit with_open_forms(const TipFit& fit, const Geometry& geometry, const Foun
   out.found.push_back(std::move(forms));
   for (std::size_t k = 0; k < amounts.size(); ++k)
     add_amount(out.errors, amounts[k], effects.random[static_cast<Index>(k)]);
+  for (ErrorTerm& one : out.errors) one.known_over = measured_over(fit.problem, one);
   return out;
 }
 

@@ -97,12 +97,7 @@ struct Columns {
   }
 };
 
-/// Whether an order of a turn, which goes on everywhere.
-bool shows_a_turn(const MachineEffect& of) {
-  return !of.shape.empty() && of.shape.front().name == "order";
-}
-
-/// @param problem where an error is known, if it was read out
+/// @param problem where an error is known
 Term term_of(const Problem& problem, const MachineEffect& of) {
   Term term;
   term.of = of;
@@ -114,10 +109,7 @@ Term term_of(const Problem& problem, const MachineEffect& of) {
   const auto* error = std::get_if<ErrorOfPosition>(&of.term);
   for (std::size_t i = 0; error != nullptr && !error->of && i < error->functions.size(); ++i)
     term.errors.push_back({error->error, error->functions[i], 0.0});
-  if (problem.read_outs() && !term.errors.empty() && !shows_a_turn(of)) {
-    const AxisRange range = axis_range(problem, static_cast<AxisName>(error->error.body));
-    for (ErrorTerm& one : term.errors) one.known_over = {range.low, range.high};
-  }
+  for (ErrorTerm& one : term.errors) one.known_over = measured_over(problem, one);
   return term;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ranges>
 
+#include "calibrate/estimate/geometry.hpp"
 #include "calibrate/estimate/read_out_rows.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "calibrate/estimate/total_uncertainty.hpp"
@@ -176,6 +177,7 @@ std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMe
   for (const MachineMeasurement& file : data)
     if (array_errors && file.kind == MeasurementKind::array)
       add_array_unknowns(file, options.largest_length_mm, fit.unknowns);
+  for (Unknown& one : fit.unknowns) one.unit.known_over = measured_over(problem, one.unit);
   fit.solution = solve(problem, fit.given, fit.unknowns);
   if (!alone && !problem.noise_stated && fit.solution.freedom > 0.0) {
     estimate_noise(data, out.read_outs, fit.solution, problem);

@@ -66,6 +66,23 @@ AxisRange axis_range(const Problem& problem, AxisName axis) {
   return {low, high};
 }
 
+std::optional<std::array<double, 2>> measured_over(const Problem& problem, const ErrorTerm& error) {
+  if (!error.name.component || std::holds_alternative<ConstantError>(error.function)) return {};
+  const std::size_t axis = error.name.body;
+  const bool of_read_out = error.name.direction == axis;
+  std::vector<double> at;
+  for (const Row& row : problem.rows)
+    if (row.of_tip() || (of_read_out && index_of(*row.read_out) == axis))
+      at.push_back(row.axes[axis]);
+  if (at.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(at);
+  const bool rotary = is_rotary(static_cast<AxisName>(axis));
+  const bool all_around =
+      rotary && std::holds_alternative<FourierError>(error.function) && high - low >= whole_turn;
+  if (all_around || high - low < (rotary ? rad_per_deg : 1.0)) return {};
+  return std::array{low, high};
+}
+
 VectorXd error_column(const Problem& problem, const Geometry& geometry, const ErrorTerm& error,
                       std::optional<AxisName> of) {
   const auto& axes = problem.machine->axes;

@@ -52,4 +52,8 @@ struct AxisRange {
 };
 AxisRange axis_range(const Problem& problem, AxisName axis);
 
+/// From where to where the rows tell of a component error. None: it holds everywhere (a constant,
+/// orders of a turn that was measured all around), or its axis moved less than 1 mm or 1°.
+std::optional<std::array<double, 2>> measured_over(const Problem& problem, const ErrorTerm& error);
+
 }  // namespace trueaxis::calibrate_detail

@@ -358,15 +358,15 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
               : fmt::format("the fit leaves residuals of {:.3g} µm", as_read_mm / mm_per_um),
         *again_mm / mm_per_um, mistake.what, mistake.mend);
   }
-  if (!best.empty() || in_proportion || wrong) return best;
-  return fmt::format(
-      "even with every error that a machine can have, the residuals are {:.3g} µm{}: check the "
-      "units of deviations and positions in the header. Check that the machine file, the tool "
-      "length and the columns belong to the measurement",
-      left_by_all_mm / mm_per_um,
-      found.stated_noise_mm > 0.0
-          ? fmt::format(", and their stated noise is {:.2g} µm", found.stated_noise_mm / mm_per_um)
-          : std::string());
+  if (!best.empty() || (wrong ? found.converged : in_proportion)) return best;
+  const double noise_um = found.stated_noise_mm / mm_per_um;
+  return (wrong ? "no machine model fits the readings"
+                : fmt::format("even with every error that a machine can have, the residuals are "
+                              "{:.3g} µm",
+                              left_by_all_mm / mm_per_um)) +
+         (noise_um > 0.0 ? fmt::format(", and their stated noise is {:.2g} µm", noise_um) : "") +
+         ": check the units of deviations and positions in the header. Check that the machine "
+         "file, the tool length and the columns belong to the measurement";
 }
 
 std::string implausible(const Calibration& found, const CalibrationOptions& options) {

@@ -322,6 +322,8 @@ AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders,
   const auto n = static_cast<double>(file.rows());
   out.rms_before = std::sqrt(fit.with({}, 1.0).rss / n);
   out.rms_after = std::sqrt(result.rss / n);
+  out.freedom = result.freedom;
+  out.stated_noise = file.noise_mm.value_or(0.0);
   if (result.freedom > 0.0) out.noise = std::sqrt(result.rss / result.freedom);
   return out;
 }

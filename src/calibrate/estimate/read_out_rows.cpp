@@ -93,7 +93,6 @@ void add_read_out_unknowns(const AxisReadOut& read_out, double largest,
     const std::string full = to_string(name) + '.' + what;
     if (std::ranges::find(unknowns, full, &Unknown::name) != unknowns.end()) return;
     unknowns.push_back({full, {name, std::move(function), 0.0}, largest});
-    if (!read_out.repeats) unknowns.back().unit.known_over = {read_out.low, read_out.high};
   };
   for (std::size_t degree = 1; degree < read_out.polynomial.size(); ++degree)
     add("poly" + std::to_string(degree),

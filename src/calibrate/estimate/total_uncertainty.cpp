@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/estimate/geometry.hpp"
 #include "calibrate/estimate/plausible_errors.hpp"
 #include "math/covariance.hpp"
 #include "math/linear_algebra.hpp"
@@ -210,7 +211,12 @@ class Together {
       which.push_back(at);
       add_amount(components, amounts_[i], mean_[at]);
     }
-    errors.terms.insert(errors.terms.end(), components.begin(), components.end());
+    for (ErrorTerm& term : components) {
+      const auto given = std::ranges::find(fit_.given.terms, term.name, &ErrorTerm::name);
+      term.known_over =
+          given != fit_.given.terms.end() ? given->known_over : measured_over(fit_.problem, term);
+      errors.terms.push_back(std::move(term));
+    }
     for (std::size_t i = 0; i < held_.size(); ++i) {
       found.push_back(amount_of(held_[i].unit));
       which.push_back(covariance_.rows() + static_cast<Index>(i));

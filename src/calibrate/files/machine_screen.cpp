@@ -67,11 +67,25 @@ std::string read_out_screen(const AxisReadOut& one, double k) {
 }
 
 /// χ² of the residuals at the stated noise, as the check of a diagnosis has it.
-bool exceeds_stated_noise(const Calibration& c) {
-  if (!(c.stated_noise_mm > 0.0) || c.equations <= c.unknowns) return false;
-  const auto freedom = static_cast<double>(c.equations - c.unknowns);
-  const double ratio = c.noise_mm / c.stated_noise_mm;
+bool exceeds(double noise, double stated, double freedom) {
+  if (!(stated > 0.0) || !(freedom > 0.0)) return false;
+  const double ratio = noise / stated;
   return cdf(complement(boost::math::chi_squared(freedom), freedom * ratio * ratio)) < 1e-3;
+}
+
+/// "A 29 times the stated noise" of everything that was measured, "" where nothing exceeds it.
+std::string beyond_noise(const Calibration& c) {
+  std::vector<std::string> found;
+  const auto state = [&](const std::string& what, double noise, double stated, double freedom) {
+    if (exceeds(noise, stated, freedom))
+      found.push_back(fmt::format("{}{:.2g} times the stated noise", what, noise / stated));
+  };
+  state("", c.noise_mm, c.stated_noise_mm,
+        static_cast<double>(c.equations) - static_cast<double>(c.unknowns));
+  for (const AxisReadOut& one : c.read_outs)
+    state(fmt::format("read-out of {} ", letter_of(one.axis)), one.noise, one.stated_noise,
+          one.freedom);
+  return found.empty() ? "" : fmt::format(", {}", fmt::join(found, ", "));
 }
 
 }  // namespace
@@ -87,20 +101,20 @@ std::string small_size(double size, const std::string& unit) {
 }
 
 std::string calibration_screen(const Calibration& c) {
+  const std::string beyond = beyond_noise(c);
+  const char* const verdict = beyond.empty() ? "DONE" : "UNEXPLAINED";
   std::string text;
   if (c.equations > 0)
     text = fmt::format(
         "{}: {} errors of the machine found, RMS of {} numbers {} -> {}, noise {} ({}){}\n"
         "next   trueaxis machine diagnose with the same data: names further errors\n",
-        exceeds_stated_noise(c) ? "UNEXPLAINED" : "DONE", c.parameters.size(), c.equations,
-        um(c.rms_before_mm), um(c.rms_after_mm), um(c.noise_mm), to_string(c.noise_basis),
-        exceeds_stated_noise(c)
-            ? fmt::format(", {:.2g} times the stated noise", c.noise_mm / c.stated_noise_mm)
-            : "");
+        verdict, c.parameters.size(), c.equations, um(c.rms_before_mm), um(c.rms_after_mm),
+        um(c.noise_mm), to_string(c.noise_basis), beyond);
   else
-    text =
-        "DONE: position errors found\n"
-        "next   trueaxis machine diagnose with the same data: names their causes\n";
+    text = fmt::format(
+        "{}: position errors found{}\n"
+        "next   trueaxis machine diagnose with the same data: names their causes\n",
+        verdict, beyond);
   for (const AxisReadOut& one : c.read_outs) text += read_out_screen(one, c.coverage_factor);
   std::vector<std::string> errors, shown, open;
   for (const CalibratedParameter& one : c.parameters)

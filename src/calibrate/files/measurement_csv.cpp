@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle.hpp"
 #include "base/diagnostics.hpp"
 #include "base/number.hpp"
 #include "calibrate/files/measurement_header.hpp"
@@ -64,6 +65,17 @@ class Rows {
     }
     if (of_errors_ && out_.actual.size() == out_.rows())
       out_.actual.back() += out_.axes.back()[index_of(*out_.axis)];
+  }
+
+  /// Whether commands that are read as degrees are a turn of something else.
+  bool covers_turn_in_radians() const {
+    const auto command = std::ranges::find(columns, Role::command, &MeasurementColumn::role);
+    if (command == columns.end() || !is_rotary(*out_.axis) || command->factor != rad_per_deg)
+      return false;
+    const std::size_t k = index_of(*out_.axis);
+    const auto [low, high] =
+        std::ranges::minmax(out_.axes, {}, [k](const AxisPositions& at) { return at[k]; });
+    return is_turn_in_radians((high[k] - low[k]) / rad_per_deg);
   }
 
  private:
@@ -189,6 +201,10 @@ MachineMeasurement read_measurement_csv(const std::string& path, const Machine& 
     diagnostics.add(0, 0, "has no header and no rows");
   else if (!diagnostics.any() && out.rows() == 0)
     diagnostics.add(last, 0, "has no rows");
+  else if (out.kind == MeasurementKind::axis && rows.covers_turn_in_radians())
+    diagnostics.add(last, 0,
+                    "the commands cover one revolution in rad, and the header has deg: write "
+                    "command[rad] and the unit of the other column");
   diagnostics.throw_if_any();
   return out;
 }

@@ -165,10 +165,23 @@ std::string take_gear_ratio(std::string_view value, MeasurementMetadata& metadat
   return "";
 }
 
-/// The known key that `word` was meant to be, or nothing.
-const char* meant(std::string_view word) {
-  for (const char* key : keys)
-    if (word != key && edit_distance(word, key) == 1) return key;
+std::string take_value(std::string_view key, std::string_view value,
+                       MeasurementMetadata& metadata) {
+  return key == "kind"    ? take_kind(value, metadata)
+         : key == "noise" ? take_noise(value, metadata)
+         : key == "axis"  ? take_axis(value, metadata)
+                          : take_gear_ratio(value, metadata);
+}
+
+/// The known key that `word` was meant to be, or nothing: a letter off, or two with a value that
+/// only the key has.
+const char* meant(std::string_view word, std::string_view value) {
+  for (const char* key : keys) {
+    const std::size_t distance = word == key ? 0 : edit_distance(lower_case(word), key);
+    MeasurementMetadata tried;
+    if (word != key && (distance <= 1 || (distance == 2 && take_value(key, value, tried).empty())))
+      return key;
+  }
   return nullptr;
 }
 
@@ -185,7 +198,7 @@ void take_measurement_comment(std::string_view line, std::size_t number,
   const std::string_view value = trimmed(text.substr(colon + 1));
   const std::size_t column =
       csv_character(line, static_cast<std::size_t>(text.data() - line.data()));
-  if (const char* const known = meant(key)) {
+  if (const char* const known = meant(key, value)) {
     diagnostics.add(number, column, csv_quoted(key) + " is not a key: did you mean " + known + "?");
     return;
   }
@@ -196,10 +209,7 @@ void take_measurement_comment(std::string_view line, std::size_t number,
   else if (!metadata.lines.try_emplace(key, number).second)
     wrong = key + " is given twice: keep one";
   else
-    wrong = key == "kind"    ? take_kind(value, metadata)
-            : key == "noise" ? take_noise(value, metadata)
-            : key == "axis"  ? take_axis(value, metadata)
-                             : take_gear_ratio(value, metadata);
+    wrong = take_value(key, value, metadata);
   if (!wrong.empty()) diagnostics.add(number, column, std::move(wrong));
 }
 

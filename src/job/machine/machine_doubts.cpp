@@ -195,7 +195,10 @@ Reasons machine_remarks(const MachineJobResult& result) {
   for (const std::string& unsaid : result.job.remarks_of_known)
     all.push_back({ReasonCode::remark, {}, {}, {{"text", unsaid}}});
   if (no_u) all.push_back({ReasonCode::known_without_u});
-  if (!result.compensation || result.compensation->singular.empty()) return all;
+  if (!result.compensation) return all;
+  for (const std::string& assumed : result.compensation->remarks)
+    all.push_back({ReasonCode::remark, {}, {}, {{"text", assumed}}});
+  if (result.compensation->singular.empty()) return all;
   const auto& poles = result.compensation->singular;
   all.push_back(
       {ReasonCode::at_a_pole,

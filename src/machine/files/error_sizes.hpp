@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "machine/limits.hpp"
 #include "trueaxis/machine.hpp"
 
 namespace trueaxis {
@@ -14,9 +15,6 @@ double largest_size(const ErrorName& name);
 
 /// How large a function becomes: a polynomial over `range`, a table at its points, a Fourier sum by
 /// the sum of its amplitudes.
-struct PositionRange {
-  double low = 0.0, high = 0.0;  ///< mm or rad
-};
 double size_of(const ErrorFunction& function, const PositionRange& range);
 
 /// Where a polynomial is looked at: over ± its scale about its origin, over which files that

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/angle.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "machine/files/machine_identity.hpp"
@@ -75,13 +76,27 @@ ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& ma
 }
 
 TableError table_of_turns(AxisName axis, TableError table) {
-  if (!is_rotary(axis) || table.at.size() < 3) return table;
-  const double turn = table.at.back() - table.at.front();
-  const auto [low, high] = std::ranges::minmax(table.values);
-  const double apart = std::abs(table.values.back() - table.values.front());
-  table.periodic = std::abs(turn - two_pi) < 1e-9 && apart <= 1e-6 * (high - low);
-  if (table.periodic) table.values.back() = table.values.front();
+  constexpr double same = 1e-9;
+  std::vector<double>&at = table.at, &values = table.values;
+  if (!is_rotary(axis) || at.size() < 3) return table;
+  const auto [low, high] = std::ranges::minmax(values);
+  const double first = at.front(), to_turn = two_pi - (at.back() - first);
+  double step = 0.0;  // the largest
+  for (std::size_t i = 1; i < at.size(); ++i) step = std::max(step, at[i] - at[i - 1]);
+  table.periodic = std::abs(to_turn) < same
+                       ? std::abs(values.back() - values.front()) <= 1e-6 * (high - low)
+                       : to_turn > 0.0 && to_turn <= step + same;
+  if (!table.periodic) return table;
+  if (to_turn >= same) at.push_back(first + two_pi), values.push_back(0.0);
+  values.back() = values.front();
   return table;
+}
+
+std::string turn_trouble(AxisName axis, const TableError& table) {
+  if (!is_rotary(axis) || table.at.empty() ||
+      !is_turn_in_radians((table.at.back() - table.at.front()) / rad_per_deg))
+    return "";
+  return "the positions cover one revolution in rad: write them in deg";
 }
 
 std::string error_name_trouble(const std::string& text, const Machine& machine) {

@@ -92,7 +92,11 @@ std::string errors_text(const Machine& machine, const ErrorModel& errors,
 std::string error_name_trouble(const std::string& text, const Machine& machine);
 
 /// A table of a format that does not say whether it goes on beyond its ends: that of a rotary axis
-/// over one turn that ends as it begins does.
+/// over one turn that ends as it begins does, and of one that lacks a step of it, no larger than
+/// its own.
 TableError table_of_turns(AxisName axis, TableError table);
+
+/// What is wrong with a table of a rotary axis whose positions are degrees; "" where nothing is.
+std::string turn_trouble(AxisName axis, const TableError& table);
 
 }  // namespace trueaxis

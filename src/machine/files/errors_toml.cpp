@@ -56,6 +56,9 @@ TableError read_table(TomlTable& table, const Keys& keys) {
   if (error.at.size() < 2) table.complain(at, "is needed: two positions or more");
   if (std::ranges::adjacent_find(error.at, std::ranges::greater_equal{}) != error.at.end())
     table.complain(at, "must ascend");
+  if (const std::string trouble = turn_trouble(keys.rotary ? AxisName::C : AxisName::X, error);
+      !trouble.empty())
+    table.complain(at, trouble);
   if (error.values.size() != error.at.size())
     table.complain(values, "must hold as many numbers as there are positions");
   return error;

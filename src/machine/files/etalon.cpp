@@ -36,6 +36,8 @@ class EtalonReader {
   void finish() {
     if (in_grid_) complain("a block of Gridpoints is not closed: end it with }");
     close_block();
+    if (errors_.terms.empty() && wrong_.empty())
+      wrong_.push_back({path_, 0, 0, "has no error: give a block such as [EXX] and its rows"});
     if (!wrong_.empty()) throw InputError(std::move(wrong_));
   }
 
@@ -100,7 +102,11 @@ class EtalonReader {
     if (!last) return;
     in_grid_ = false;
     if (name_ && grid_.at.size() < 2) complain("Gridpoints need two rows or more");
-    add(name_ ? table_of_turns(static_cast<AxisName>(name_->body % axis_count), grid_) : grid_);
+    if (!name_) return;
+    const auto axis = static_cast<AxisName>(name_->body % axis_count);
+    if (std::string trouble = turn_trouble(axis, grid_); !trouble.empty())
+      complain(std::move(trouble));
+    add(table_of_turns(axis, grid_));
   }
 
   /// The first of a block's numbers that is not a size of its error.

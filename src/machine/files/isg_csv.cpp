@@ -66,6 +66,14 @@ class BlockReader {
     if (block_.rows.empty()) complain(line, "has a header and no rows");
     if (argument && machine_.find(*argument) == nullptr)
       complain(line, block_.header.front() + " is not an axis of the machine");
+    if (argument && !block_.rows.empty()) {
+      const double unit = edge_unit(*argument);
+      const std::string trouble = turn_trouble(
+          *argument,
+          {{block_.rows.front().values.front() * unit, block_.rows.back().values.front() * unit},
+           {}});
+      if (!trouble.empty()) complain(line, trouble);
+    }
     if (argument && block_.rows.size() == 1) complain(line, "needs two rows or more");
     if (!argument && block_.rows.size() > 1)
       complain(line, "has no axis as its first column: then one row of constants only");
@@ -136,7 +144,10 @@ ErrorModel read_isg_csv(std::string_view content, const std::string& path, const
   std::vector<Diagnostic> wrong;
   ErrorModel errors;
   errors.sign = sign;
-  for (const Block& block : blocks_of(content, path, wrong))
+  const std::vector<Block> blocks = blocks_of(content, path, wrong);
+  if (blocks.empty() && wrong.empty())
+    wrong.push_back({path, 0, 0, "has no table: give a header such as `X EXX` and its rows"});
+  for (const Block& block : blocks)
     BlockReader(block, machine, large_errors)
         .read(errors, [&](std::size_t line, const std::string& message) {
           wrong.push_back({path, line, 0, message});
