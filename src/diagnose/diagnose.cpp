@@ -48,7 +48,7 @@ Diagnosis not_diagnosable(Diagnosis out) {
   return out;
 }
 
-/// The model about the ideal fit, or about that of the readings that count, if some do not: a digit
+/// The model about the ideal fit, without readings that do not count: a digit
 /// typed wrong moves the axis of 200 readings by 0.3 mm, whose second order looks like two lobes.
 /// @param about keeps that fit
 std::unique_ptr<IdealModel> about_readings_that_count(const ProbeStream& stream,

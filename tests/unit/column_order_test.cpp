@@ -55,8 +55,8 @@ std::vector<std::size_t> all_rows() {
   return rows;
 }
 
-// Out, and back with the spindle reversed, at four readings a turn: the steps of +85° and −85° add
-// up to nothing, as random ones do.
+// Out, and back with the spindle reversed, at four readings per revolution: the steps of +85° and
+// −85° add up to nothing, as random ones do.
 TEST(ColumnOrder, AReversedSpindleIsNoShuffledColumn) {
   ProbeStream stream = helix();
   for (std::size_t i = 0; i < stream.c_rad.size(); ++i) {
