@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines of an uncertainty budget, against fits of readings that have what each is about.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "fit/associate.hpp"
+#include "fit/uncertainty.hpp"
+#include "math/statistics.hpp"
+#include "trueaxis/fit.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::fit_budget_test {
+namespace {
+
+using Kind = Influence::Kind;
+
+/// What a lathe does to the readings of a cone.
+struct Lathe {
+  double gain = 0.0, c_rad = 0.0, z_mm = 0.0, height_mm = 0.0;
+};
+
+/// Readings of a cone that leans and runs out, over 50 mm; half of them after it was clamped anew.
+ProbeStream cone(const Lathe& lathe, bool twice = false) {
+  ProbeStream stream;
+  constexpr int count = 720;
+  for (int i = 0; i < count; ++i) {
+    const bool second = twice && 2 * i >= count;
+    const Revolved surface{
+        second ? Axis{-0.3, 0.7, -1e-3, 2e-3, 20.0} : Axis{0.8, -0.5, 2e-3, 3e-3, 20.0}, 25.0,
+        0.12};
+    const double c = 0.4 + two_pi * i / 37.3, z = 50.0 * i / count;
+    stream.c_rad.push_back(c + lathe.c_rad);
+    stream.position_mm.push_back(z + lathe.z_mm);
+    stream.reading_mm.push_back(intersect(surface, c, z, lathe.height_mm).x_mm);
+    if (twice) stream.setup.push_back(second ? 2 : 1);
+  }
+  if (twice) stream.setups = {{.number = 1}, {.number = 2, .clamp_force_ratio = 1.5}};
+  double mean = 0.0;
+  for (const double x : stream.reading_mm) mean += x / count;
+  for (double& x : stream.reading_mm) x += lathe.gain * (x - mean);
+  return stream;
+}
+
+std::vector<double> values(const FitResult& fit) {
+  std::vector<double> out;
+  for (const FitParameter& one : fit.parameters) out.push_back(one.estimate.value);
+  return out;
+}
+
+/// What a fit says that an influence of this u contributes to each parameter.
+std::vector<double> contributions(const ProbeStream& stream, const Influence& influence) {
+  FitOptions options;
+  options.influences = {influence, {Kind::probe_delay, 1.0}};  // the other is not of a fit
+  const FitResult found = fit(stream, options);
+  EXPECT_EQ(found.status, FitStatus::converged) << found.message;
+  EXPECT_EQ(found.budget.size(), 2U);
+  EXPECT_EQ(found.budget.back().source, info_of(influence.kind).name);
+  EXPECT_EQ(found.budget.back().type, 'B');
+  return found.budget.back().u;
+}
+
+// The influence is small enough for second orders to be below 1e-3 of the first. At its height the
+// probe sees the derivative there.
+TEST(FitBudget, AnInfluenceContributesWhatItDoesToAFit) {
+  constexpr double u = 1e-4, height_mm = 1.5;
+  for (const bool twice : {false, true}) {
+    const ProbeStream stream = cone({}, twice);
+    const std::vector<double> as_it_is = values(fit(stream, {}));
+    const auto expect_moved = [&](const Influence& influence, const ProbeStream& other,
+                                  const FitOptions& options = {}) {
+      const std::vector<double> found = contributions(stream, influence);
+      const std::vector<double> moved = values(fit(other, options));
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        const double expected = std::abs(moved[i] - as_it_is[i]);
+        EXPECT_NEAR(found[i], expected, 2e-3 * expected + 1e-9)
+            << info_of(influence.kind).name << ", parameter " << i << (twice ? ", twice" : "");
+      }
+    };
+    if (!twice) expect_moved({Kind::probe_gain, u}, cone({.gain = u}));
+    expect_moved({Kind::c_offset, u}, cone({.c_rad = u}, twice));
+    expect_moved({Kind::z_offset, u}, cone({.z_mm = u}, twice));
+    ProbeStream higher = stream;
+    const ProbeStream at = cone({.height_mm = height_mm}, twice);
+    const ProbeStream above = cone({.height_mm = height_mm + u}, twice);
+    for (std::size_t i = 0; i < higher.size(); ++i)
+      higher.reading_mm[i] += above.reading_mm[i] - at.reading_mm[i];
+    expect_moved({Kind::probe_height, u, height_mm}, higher);
+    FitOptions ball;
+    ball.ball_radius_mm = u;
+    expect_moved({Kind::ball_radius, u}, stream, ball);
+  }
+}
+
+// Eq. 33 (Huber 1981, section 7.6): k² Σψ²/(N − p) over the square of the mean of ψ′, k = 1 + p/N
+// var ψ′/(mean ψ′)², times (JᵀJ)⁻¹, which the plain fit shows next to its own σ². At both minima it
+// is the same to a few u of the slopes.
+TEST(FitBudget, ARobustLossHasTheUOfEquation33) {
+  ProbeStream stream = cone({});
+  std::mt19937_64 random(51);
+  std::normal_distribution<double> normal(0.0, 2e-3);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    stream.reading_mm[i] += normal(random) * (i % 9 == 0 ? 6.0 : 1.0);
+  const FitResult plain = fit(stream, {});
+  const double n = static_cast<double>(stream.size()), p = 6.0;
+  for (const Loss loss : {Loss::huber, Loss::tukey}) {
+    FitOptions options;
+    options.loss = loss;
+    const FitResult robust = fit(stream, options);
+    ASSERT_EQ(robust.status, FitStatus::converged);
+    EXPECT_EQ(robust.sigma_source, SigmaSource::robust_residuals);
+    const double c = (loss == Loss::huber ? 1.345 : 4.685) * robust.sigma_mm;
+    double squares = 0.0, mean = 0.0, mean2 = 0.0;
+    for (const double r : robust.residual_mm) {
+      const double v = r / c, w = std::abs(v) < 1.0 ? 1.0 - v * v : 0.0;
+      const double psi = loss == Loss::tukey ? r * w * w : std::clamp(r, -c, c);
+      const double slope =
+          loss == Loss::tukey ? w * (1.0 - 5.0 * v * v) : (std::abs(v) <= 1.0 ? 1.0 : 0.0);
+      squares += psi * psi, mean += slope / n, mean2 += slope * slope / n;
+    }
+    const double k = 1.0 + p / n * (mean2 - mean * mean) / (mean * mean);
+    const double sigma = k * std::sqrt(squares / (n - p)) / mean;
+    for (std::size_t i = 0; i < robust.parameters.size(); ++i) {
+      const double per_sigma = plain.parameters[i].estimate.u / plain.sigma_mm;
+      EXPECT_NEAR(robust.parameters[i].estimate.u, sigma * per_sigma, 2e-3 * sigma * per_sigma);
+    }
+  }
+}
+
+// By more than 3, either way, if five degrees of freedom show it.
+TEST(FitBudget, AStatedNoiseIsDoubtedBeyondAFactorOfThree) {
+  EXPECT_TRUE(noise_disagrees(0.5, 1.51, 5.0));
+  EXPECT_FALSE(noise_disagrees(0.5, 1.49, 500.0));
+  EXPECT_TRUE(noise_disagrees(0.5, 0.166, 7.0));
+  EXPECT_FALSE(noise_disagrees(0.5, 0.168, 500.0));
+  EXPECT_FALSE(noise_disagrees(0.5, 9.0, 4.9));
+  EXPECT_FALSE(noise_disagrees(0.0, 9.0, 500.0)) << "none is stated";
+}
+
+// In mm on the surface, its largest part positive; parts below a twentieth are left out.
+TEST(FitBudget, ADirectionHasItsNames) {
+  const std::vector<std::string> names{"x", "slope", "radius", "y"};
+  const std::vector<double> scale_mm{1.0, 10.0, 1.0, 1.0};
+  const auto named = [&](const Eigen::Vector4d& sizes_mm) {
+    return name_direction(sizes_mm.cwiseProduct(Eigen::Vector4d(1.0, 0.1, 1.0, 1.0)), names,
+                          scale_mm);
+  };
+  EXPECT_EQ(named({3.0, -4.0, 0.0, 0.0}), "-0.60 x + 0.80 slope");
+  EXPECT_EQ(named({0.0, 4.0, -3.0, 0.0}), "0.80 slope - 0.60 radius");
+  EXPECT_EQ(named({0.04, 1.0, 0.0, 0.06}), "1.00 slope + 0.06 y");
+  EXPECT_EQ(named({-0.06, 1.0, 0.0, 0.04}), "-0.06 x + 1.00 slope");
+}
+
+}  // namespace
+}  // namespace trueaxis::fit_budget_test
