@@ -139,7 +139,7 @@ TEST(FitBudget, AStatedNoiseIsDoubtedBeyondAFactorOfThree) {
   EXPECT_FALSE(noise_disagrees(0.0, 9.0, 500.0)) << "none is stated";
 }
 
-// In mm on the surface, its largest part positive; parts below a twentieth are left out.
+// In mm on the surface, its largest part positive; it does not name parts below a twentieth.
 TEST(FitBudget, ADirectionHasItsNames) {
   const std::vector<std::string> names{"x", "slope", "radius", "y"};
   const std::vector<double> scale_mm{1.0, 10.0, 1.0, 1.0};
