@@ -175,7 +175,7 @@ TEST(FitMisreading, EachWayToReadAStreamIsFound) {
   EXPECT_TRUE(half.starts_with("C restarts after a revolution that does not have 360°")) << half;
 }
 
-// A third of what is left as written, for half the angle a tenth; enough readings for two fits.
+// A third of the residuals as written, for half the angle a tenth; enough readings for two fits.
 TEST(FitMisreading, AnotherWayIsTakenIfItIsFarBetter) {
   const ProbeStream right = run_out();
   const ProbeStream gon = with_c(right, [](double c) { return c / 0.9; });
