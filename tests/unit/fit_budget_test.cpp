@@ -2,6 +2,7 @@
 // Lines of an uncertainty budget, against fits of readings that have what each is about.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -151,6 +152,87 @@ TEST(FitBudget, ADirectionHasItsNames) {
   EXPECT_EQ(named({0.0, 4.0, -3.0, 0.0}), "0.80 slope - 0.60 radius");
   EXPECT_EQ(named({0.04, 1.0, 0.0, 0.06}), "1.00 slope + 0.06 y");
   EXPECT_EQ(named({-0.06, 1.0, 0.0, 0.04}), "-0.06 x + 1.00 slope");
+}
+
+/// u of the length of a plane vector: along it, or in the worse direction within that u.
+double u_of_length(const Eigen::Vector2d& v, const Eigen::Matrix2d& covariance) {
+  const double worst = std::sqrt(covariance.eigenvalues().real().maxCoeff());
+  return v.norm() > worst ? std::sqrt(v.dot(covariance * v)) / v.norm() : worst;
+}
+
+// Off the spindle axis, and on it, where no direction is better known than another.
+TEST(FitDerived, OffsetsAndTiltAreThoseOfTheAxis) {
+  ProbeStream centred = cone({});
+  for (std::size_t i = 0; i < centred.size(); ++i)
+    centred.reading_mm[i] = 25.0 + 0.12 * (centred.position_mm[i] - 20.0);
+  FitOptions options;
+  options.noise_mm = 2e-3;
+  for (const ProbeStream& stream : {cone({}), centred}) {
+    const FitResult found = fit(stream, options);
+    ASSERT_EQ(found.status, FitStatus::converged) << found.message;
+    const Axis& axis = found.axis.axis;
+    const Eigen::Matrix4d covariance =
+        Eigen::Map<const Eigen::Matrix4d>(found.axis.covariance.data());
+    for (const auto& [name, z] : {std::pair{"offset_at_min_z", found.position_min_mm},
+                                  {"offset_at_max_z", found.position_max_mm}}) {
+      Eigen::Matrix<double, 2, 4> at;
+      at << Eigen::Matrix2d::Identity(), (z - axis.z_ref_mm) * Eigen::Matrix2d::Identity();
+      const auto [x, y] = axis.at(z);
+      const Estimate& offset = found.parameter(name);
+      EXPECT_NEAR(offset.value, std::hypot(x, y), 1e-15);
+      EXPECT_NEAR(offset.u, u_of_length({x, y}, at * covariance * at.transpose()), 1e-9 * offset.u);
+    }
+    const Eigen::Vector2d slope(axis.slope_x, axis.slope_y);
+    EXPECT_NEAR(found.parameter("tilt").value, std::atan(slope.norm()), 1e-15);
+    EXPECT_NEAR(found.parameter("tilt").u, u_of_length(slope, covariance.bottomRightCorner<2, 2>()),
+                1e-12);
+    EXPECT_EQ(found.parameter("radius_mid").value, found.shape.radius_mm);
+  }
+}
+
+TEST(FitDerived, TheRmsOfATukeyLossIsOfWhatItKeeps) {
+  ProbeStream stream = cone({});
+  std::mt19937_64 random(52);
+  std::normal_distribution<double> normal(0.0, 2e-3);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    stream.reading_mm[i] += i % 90 == 7 ? 0.3 : normal(random);
+  for (const Loss loss : {Loss::plain, Loss::huber, Loss::tukey}) {
+    FitOptions options;
+    options.loss = loss;
+    const FitResult found = fit(stream, options);
+    std::vector<double> kept = found.residual_mm;
+    if (loss == Loss::tukey) {
+      ASSERT_GE(found.rejected.size(), 8U);
+      for (const Rejected& one : found.rejected) kept[one.row - 1] = 0.0;
+    }
+    double squares = 0.0;
+    for (const double r : kept) squares += r * r;
+    const double count = static_cast<double>(
+        kept.size() - (loss == Loss::tukey ? found.rejected.size() : std::size_t{0}));
+    EXPECT_NEAR(found.rms_mm, std::sqrt(squares / count), 1e-12);
+    const bool listed =
+        std::ranges::find(found.rejected, 8U, &Rejected::row) != found.rejected.end();
+    EXPECT_EQ(listed, loss != Loss::plain);
+  }
+}
+
+// The ball's centre runs on 22 to 28 mm: a ball of 24 mm leaves a radius below 0 at one end, here
+// the first; of a cylinder at both.
+TEST(FitDerived, ABallThatIsTooLargeIsNotedWhereItIs) {
+  FitOptions options;
+  options.ball_radius_mm = 24.0;
+  const FitResult found = fit(cone({}), options);
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_NE(found.notes.front().find("at Z = 0 mm, which is impossible"), std::string::npos)
+      << found.notes.front();
+  ProbeStream other = cone({});
+  for (double& z : other.position_mm) z = 50.0 - z;
+  const FitResult turned = fit(other, options);
+  ASSERT_FALSE(turned.notes.empty());
+  EXPECT_NE(turned.notes.front().find("at Z = 50 mm, which is impossible"), std::string::npos)
+      << turned.notes.front();
+  options.ball_radius_mm = 20.0;
+  EXPECT_TRUE(fit(cone({}), options).notes.empty());
 }
 
 }  // namespace
