@@ -62,7 +62,7 @@ double cubic(const std::vector<LogResponse>& at, std::size_t i, double frequency
 /// Log gain and unwrapped phase linear between points; below the first point the phase runs to 0 at
 /// 0 Hz, beyond the last the gain stays and the phase goes on.
 Complex by_straight_lines(const std::vector<ResponsePoint>& points, double frequency_hz) {
-  ResponsePoint low{0.0, points.front().gain, 0.0}, high = low;
+  ResponsePoint low{.gain = points.front().gain}, high = low;
   double slope = 0.0;
   for (const ResponsePoint& point : points) {
     if (point.frequency_hz <= 0.0) {
@@ -94,14 +94,13 @@ Complex interpolated(const std::vector<ResponsePoint>& points, double frequency_
 
 /// Frequency at which the measured gain first falls to 1/sqrt(2); the last point when it does not.
 double measured_bandwidth_hz(const std::vector<ResponsePoint>& points) {
-  ResponsePoint previous{0.0, points.front().gain, 0.0};
+  ResponsePoint previous{.gain = points.front().gain};
   for (const ResponsePoint& point : points) {
     if (point.gain <= std::numbers::sqrt2 / 2.0) {
       if (previous.gain <= point.gain) return previous.frequency_hz;
       const double share =
           std::log(previous.gain * std::numbers::sqrt2) / std::log(previous.gain / point.gain);
-      return previous.frequency_hz +
-             std::max(0.0, share) * (point.frequency_hz - previous.frequency_hz);
+      return previous.frequency_hz + share * (point.frequency_hz - previous.frequency_hz);
     }
     previous = point;
   }

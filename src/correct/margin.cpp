@@ -69,13 +69,13 @@ Chain make_chain(const Spectrum& spectrum, const Motion& motion, const Actuator&
 
 /// Largest |Σ Re{c_n e^{inψ}}| and the extremes, over a revolution.
 struct Extremes {
-  double low = 0.0, high = 0.0;
+  double low = infinity, high = -infinity;
   double peak() const { return std::max(high, -low); }
 };
 
 Extremes extremes(const std::vector<HarmonicPath>& paths, const std::vector<Complex>& amplitude,
                   const std::vector<Complex>& turn) {
-  Extremes found{infinity, -infinity};
+  Extremes found;
   for (int i = 0; i < angles; ++i) {
     double value = 0.0;
     for (std::size_t k = 0; k < paths.size(); ++k) {
@@ -98,7 +98,7 @@ double peak_over_phases(const Chain& chain, const std::vector<Complex>& base,
     return base[order] + command[order] * images[order][phase];
   };
   std::size_t worst = 0;
-  double largest = -1.0;
+  double largest = 0.0;
   for (std::size_t p = 0; p < phases; ++p) {
     double sum = 0.0;
     for (std::size_t k = 0; k < base.size(); ++k) sum += std::abs(total(k, p));
@@ -248,7 +248,7 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const A
     turn[static_cast<std::size_t>(i)] = std::polar(1.0, two_pi * i / angles);
   }
   ActuatorMargin margin;
-  Extremes command{infinity, -infinity};
+  Extremes command;
   int highest_order = 0;
   const bool ahead = can_precompensate(spectrum, motion, actuator);
   for_places(spectrum, [&](const std::vector<SlowAmplitude>& wanted) {

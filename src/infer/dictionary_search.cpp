@@ -151,7 +151,7 @@ Class class_of(const Dictionary& dictionary, const Set& set, std::size_t at) {
 double Detection::lambda(std::size_t term) const {
   const Dictionary::Block& block = dictionary_.block(term);
   const auto rank = static_cast<Eigen::Index>(block.columns.size());
-  if (rank == 0 || rank < block.back.rows()) return 0.0;
+  if (rank < block.back.rows()) return 0.0;
   // Orthonormal columns are those of the term times its own axes over their lengths.
   const Eigen::VectorXd length = block.back.colwise().norm().cwiseInverse();
   const Eigen::MatrixXd left =

@@ -14,9 +14,9 @@ namespace {
 class Tube final : public RevolvedProfile {
  public:
   std::vector<Parameter> parameters() const override {
-    return {{.name = "z", .unit = "mm", .start = 0.0},
-            {.name = "radius", .unit = "mm", .start = 10.0},
-            {.name = "minor_radius", .unit = "mm", .start = 1.0}};
+    return {{.name = "z", .unit = "mm"},
+            {.name = "radius", .unit = "mm"},
+            {.name = "minor_radius", .unit = "mm"}};
   }
   Radius radius(double height_mm, std::span<const double> p) const override {
     const double h = height_mm - p[0], side = p[2] < 0.0 ? -1.0 : 1.0;

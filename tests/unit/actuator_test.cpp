@@ -103,6 +103,30 @@ TEST(Actuator, MeasuredDelayIsThatDelayFromFewPoints) {
   }
 }
 
+// One that turns by more than half a revolution before its first point, and one from below 1 Hz.
+TEST(Actuator, AMeasuredDelayMayBeLongOrSlow) {
+  for (const double scale : {1.0, 0.01}) {
+    Actuator actuator = without_hold();
+    for (const double f : {0.0, 20.0, 30.0, 50.0})
+      if (f > 0.0 || scale < 1.0)
+        actuator.measured.push_back({scale * f, 0.8, std::remainder(-0.125 * f, 2.0 * pi)});
+    EXPECT_NO_THROW(actuator.validate());
+    for (const double f : {0.0, 10.0, 20.0, 27.0, 49.0, 70.0}) {
+      const Complex delayed = std::polar(0.8, -0.125 * f);
+      EXPECT_LT(std::abs(actuator.response(scale * f) - delayed), 2e-9) << scale << ' ' << f;
+      EXPECT_LT(actuator.between_points(scale * f), 1e-12) << scale << ' ' << f;
+    }
+  }
+}
+
+TEST(Actuator, OnePointOfAResponseIsItsGainAndDelay) {
+  Actuator actuator = without_hold();
+  actuator.measured = {{100.0, 0.9, -0.5}};
+  for (const double f : {0.0, 40.0, 100.0, 150.0})
+    EXPECT_LT(std::abs(actuator.response(f) - std::polar(0.9, -0.005 * f)), 2e-9) << f;
+  EXPECT_EQ(actuator.bandwidth_hz(), 100.0) << "it is not known to fall";
+}
+
 // Sparse points of a second order, within them: the cubic is off by less than a third of what it
 // says is unknown, and that falls as the square of the spacing, as straight lines do.
 TEST(Actuator, MeasuredResponseSaysWhatItsPointsDoNotShow) {
@@ -169,7 +193,11 @@ TEST(Actuator, AMeasuredLeadIsRefused) {
   Actuator actuator;
   actuator.measured = {{10.0, 1.0, 0.063}, {100.0, 1.0, 0.63}};
   EXPECT_TRUE(actuator.leads());
+  actuator.measured.back().phase_rad = 0.11;
+  EXPECT_TRUE(actuator.leads());
   EXPECT_THROW(actuator.validate(), ContractViolation);
+  actuator.measured.back().phase_rad = 0.09;  // as a measurement may be off
+  EXPECT_FALSE(actuator.leads());
   actuator.measured = {{10.0, 1.0, -0.063}, {100.0, 1.0, -2.0}, {200.0, 1.0, 2.0 * pi - 4.0}};
   EXPECT_FALSE(actuator.leads());
   EXPECT_NO_THROW(actuator.validate());

@@ -34,6 +34,12 @@ double wanted_mm(double c_rad, double z_mm) {
   return (-one + std::sqrt(one * one - two * none)) / two - radius_mm;
 }
 
+/// Its eccentricity at the end of the cut that has more.
+double most_mm() {
+  return std::max(std::hypot(a_mm + 100.0 * slope_x, b_mm + 100.0 * slope_y),
+                  std::hypot(a_mm + 130.0 * slope_x, b_mm + 130.0 * slope_y));
+}
+
 /// Where the tool is along Z in row i of the cut: at its end the feed stops.
 double z_of_row(std::size_t i) {
   return std::max(z_end_mm, z_start_mm - feed_mm * static_cast<double>(i) / 360.0);
@@ -90,9 +96,7 @@ TEST(ControlTables, TheGridIsTheCircle) {
   }
   EXPECT_EQ(values, 361U * 7U);
   // Linear over 1° of one undulation: (1°)²/8 of its amplitude, at the cut's end that has more.
-  const double amplitude_mm = std::max(std::hypot(a_mm + 100.0 * slope_x, b_mm + 100.0 * slope_y),
-                                       std::hypot(a_mm + 130.0 * slope_x, b_mm + 130.0 * slope_y));
-  const double chord_mm = amplitude_mm * rad_per_deg * rad_per_deg / 8.0;
+  const double chord_mm = most_mm() * rad_per_deg * rad_per_deg / 8.0;
   EXPECT_NEAR(made.off.largest_mm, chord_mm, 0.01 * chord_mm + made.rounding_mm);
   // A chord leaves sinc² of its wave, 1 − (1°)²/12: two thirds of what it is off in the middle.
   EXPECT_NEAR(made.off.once_mm, chord_mm * 2.0 / 3.0, 0.01 * chord_mm + made.rounding_mm);
@@ -111,6 +115,10 @@ TEST(ControlTables, TheStreamIsTheTableAndItsLastLineTwice) {
                 made.rounding_mm + 1e-12);
   }
   EXPECT_EQ(rows.back(), rows[rows.size() - 2]);
+  // Held for 1°, a wave is up to that off, and half of it late.
+  const double step_mm = most_mm() * rad_per_deg;
+  EXPECT_NEAR(made.off.largest_mm, step_mm, 0.01 * step_mm);
+  EXPECT_NEAR(made.off.once_mm, 0.5 * step_mm, 0.01 * step_mm);
 }
 
 // Ahead of a lag of 2ζ/ω_n + T/2 = 0.40 ms at 600 rpm, 1.4°: 0.18 mm times that, 4.5 µm.
@@ -154,10 +162,12 @@ TEST(ControlTables, ProgramsSayRadiusAndDiameterAndBothFeeds) {
       if (first)
         EXPECT_NEAR(word[3], 300.0, 1e-9);
       else
-        EXPECT_NEAR(word[3], diameter ? 1.0 / 216000.0 : 216000.0, diameter ? 0.5e-6 : 1e-9);
+        EXPECT_NEAR(word[3], diameter ? 1.0 / 216000.0 : 216000.0, diameter ? 1e-12 : 1e-9);
       ++blocks;
     }
     EXPECT_EQ(blocks, correction().rows.wanted_mm.size());
+    const double chord_mm = most_mm() * rad_per_deg * rad_per_deg / 8.0;
+    EXPECT_NEAR(made.off.largest_mm, chord_mm, 0.01 * chord_mm + made.rounding_mm);
     // Inverse time holds for the blocks of the cut and for nothing else; the first block says in a
     // comment where the nose must be, and only feeds there.
     ASSERT_TRUE(lines[6].starts_with("G1 C")) << lines[6];
@@ -228,6 +238,45 @@ TEST(ControlTables, BeckhoffCountsInTenthsOfAMicrometre) {
     const std::size_t at = made.text.find(key);
     ASSERT_NE(at, std::string::npos) << key;
     EXPECT_EQ(std::stod(made.text.substr(at + key.size())), number) << key;
+  }
+}
+
+// Of an eccentricity that grows along Z its square bends: between two places 40 mm apart by
+// (0.32 mm)²/8R across the lean. A zero has no sign.
+TEST(ControlTables, AGridIsOffBetweenItsPlacesToo) {
+  const TargetSurface cut{TargetKind::cylinder, false, 0.0, 40.0, 8.0, 0.0, 0.0, 0.0, 0.0};
+  ControlTable table = table_of(ControlFormat::grid);
+  table.position_step_mm = 40.0;
+  const Correction leaning = make_correction({{0.0, 0.0, 8e-3, 0.0, 0.0}, {}}, cut, {}, {});
+  const double bend_mm = 0.32 * 0.32 / 64.0;
+  EXPECT_NEAR(make_control_table(leaning, table).off.largest_mm, bend_mm, 0.02 * bend_mm);
+  table.format = ControlFormat::sinumerik_cec;
+  table.c_step_rad = 2.0 * rad_per_deg;
+  const std::string text = make_control_table(make_correction({}, cut, {}, {}), table).text;
+  EXPECT_NE(text.find("]=0.000000\n"), std::string::npos);
+  EXPECT_EQ(text.find("]=1.0"), std::string::npos);
+  EXPECT_EQ(text.find("-0.0"), std::string::npos);
+}
+
+// What a control makes of a table is compared with what the table is made for: the axis as it must
+// be commanded for the loop of the machine to leave the target axis.
+TEST(ControlTables, TheLoopOfTheMachineIsNoDeviation) {
+  const Correction of = correction();
+  const LoopResponse loop{.gain = 0.02, .lag_rad = -0.03};
+  const Correction looped = make_correction(of.axis, of.target, of.tool, of.actuator, {}, loop);
+  const Correction commanded =
+      make_correction({looped.commanded_axis(), {}}, of.target, of.tool, of.actuator);
+  ASSERT_GT(std::abs(looped.rows.wanted_mm[90] - of.rows.wanted_mm[90]), 1e-3);
+  for (const ControlFormat format :
+       {ControlFormat::grid, ControlFormat::halstreamer, ControlFormat::servo_nc,
+        ControlFormat::sinumerik_cec, ControlFormat::beckhoff_crosscomp2}) {
+    ControlTable table = table_of(format);
+    table.c_step_rad = table.position_step_mm * rad_per_deg;
+    const MadeControlTable made = make_control_table(looped, table);
+    const MadeControlTable expected = make_control_table(commanded, table);
+    EXPECT_EQ(made.text, expected.text) << to_string(format);
+    EXPECT_NEAR(made.off.largest_mm, expected.off.largest_mm, 1e-12) << to_string(format);
+    EXPECT_NEAR(made.off.once_mm, expected.off.once_mm, 1e-12) << to_string(format);
   }
 }
 

@@ -60,6 +60,21 @@ TEST(ControlTableValue, IsTheMeanOfItsFourNeighboursInTheMiddle) {
   }
 }
 
+// Just after a row and just before that of the next revolution: 4 in 10000 of a feed of 0.1237 mm
+// is less than what its rounding to 0.1 µm makes of the place of a row after some revolutions.
+TEST(ControlTableValue, IsLinearCloseToARowAsWell) {
+  for (const double feed_mm : {0.12374, -0.12374, 0.02006}) {
+    const Table table(feed_mm);
+    const std::vector<double>&z = table.rows.position_mm, &v = table.values;
+    for (std::size_t i = 0; i + per_rev < per_rev * (revolutions - 1); ++i)
+      for (const double share : {4e-4, 1.0 - 4e-4})
+        EXPECT_NEAR(
+            table.at(static_cast<double>(i) / per_rev, z[i] + share * (z[i + per_rev] - z[i])),
+            v[i] + share * (v[i + per_rev] - v[i]), 1e-9)
+            << feed_mm << ' ' << i << ' ' << share;
+  }
+}
+
 TEST(ControlTableValue, BeyondThePathItsEndsAreHeld) {
   for (const double feed_mm : {0.12, -0.12}) {
     const Table table(feed_mm);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "correct/profile.hpp"
@@ -67,6 +68,22 @@ TEST(Correction, OfACylinderIsItsClosedFormToThirdOrder) {
     ASSERT_NEAR(correction.rows.wanted_mm[i], along + second,
                 std::pow(e, 4) / std::pow(radius, 3) + 2.0 * e * 1e-6);
   }
+}
+
+// The loop of the machine makes e^(gain + i lag) of what is commanded: the target axis.
+TEST(Correction, OfACommandedAxisTheLoopMakesTheTargetAxis) {
+  Correction correction;
+  correction.axis = tilted_axis();
+  correction.loop.gain = 0.03, correction.loop.lag_rad = -0.2;
+  const Axis commanded = correction.commanded_axis(), &target = correction.axis.axis;
+  const std::complex<double> loop = std::exp(std::complex(0.03, -0.2));
+  const auto made = [&](double x, double y) { return loop * std::complex(x, y); };
+  EXPECT_LT(std::abs(made(commanded.x_mm, commanded.y_mm) - std::complex(target.x_mm, target.y_mm)),
+            1e-15);
+  EXPECT_LT(std::abs(made(commanded.slope_x, commanded.slope_y) -
+                     std::complex(target.slope_x, target.slope_y)),
+            1e-17);
+  EXPECT_EQ(commanded.z_ref_mm, target.z_ref_mm);
 }
 
 TEST(Correction, PutsTheNoseOnTheTargetSurface) {

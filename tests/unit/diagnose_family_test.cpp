@@ -7,6 +7,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <iostream>
+#include <numbers>
 
 #include "diagnose/explain/observable.hpp"
 #include "infer/significance.hpp"
@@ -16,6 +17,34 @@ namespace trueaxis {
 namespace {
 
 using namespace diagnose_detail;
+
+// F of a gain that leaves the share w of the squares with ν degrees of freedom: p is w^(ν/2) of two
+// parameters, (1 + ν (1 − w)/2) w^(ν/2) of four, and 1 − (2/π) atan √(1/w − 1) of one of two
+// degrees. Up to 30 σ of 61 or 200 degrees the tail is that of two parameters for any number, to
+// their logarithm: 4 in 100 of it at most.
+TEST(FamilyOfTests, ALogarithmIsThatOfFishersTail) {
+  const auto log_p = [](double w, double rank, double left, double rss) {
+    return infer::log_p_value((1.0 - w) * rss, rank, rss, left + rank);
+  };
+  for (const double rss : {1e-6, 0.5, 3e4})
+    for (const double w : {0.999, 0.7, 0.1, 1e-3}) {
+      for (const double left : {1.0, 1.5, 12.0, 61.0, 400.0})
+        EXPECT_NEAR(log_p(w, 2.0, left, rss), std::max(0.5 * left * std::log(w), -5e3),
+                    1e-9 * left * std::abs(std::log(w)))
+            << left << " " << w;
+      EXPECT_NEAR(log_p(w, 1.0, 1.0, rss),
+                  std::log1p(-2.0 / std::numbers::pi * std::atan(std::sqrt(1.0 / w - 1.0))), 1e-9);
+    }
+  for (const double left : {59.0, 61.0, 200.0, 600.0})
+    for (const double w : {0.9, 0.5, 0.2, 0.1}) {
+      const double leading = 0.5 * left * std::log(w), all = std::log1p(0.5 * left * (1.0 - w));
+      const bool far = left * (1.0 / w - 1.0) > 600.0 && left > 60.0;
+      EXPECT_NEAR(log_p(w, 4.0, left, 1.0), leading + all, far ? 1.01 * all : 1e-9 * -leading);
+    }
+  EXPECT_EQ(log_p(1.0, 2.0, 12.0, 1.0), 0.0);
+  EXPECT_EQ(infer::log_p_value(1.0, 2.0, 0.0, 12.0), 0.0);
+  EXPECT_EQ(infer::log_p_value(1.0, 0.0, 2.0, 12.0), 0.0);
+}
 
 // Of n independent tests the least p-value is below p with probability 1 − (1 − p)ⁿ (Šidák).
 TEST(FamilyOfTests, CountsEveryTest) {

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "fit/joint_model.hpp"
 #include "fit/moved.hpp"
+#include "fit/place_set_ups.hpp"
 #include "fit/plausible.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -200,6 +202,76 @@ TEST(FitStart, ATiltIsOfOneClamping) {
     const bool here = part.clamping == 1;
     EXPECT_EQ(slopes(tilted), here ? std::pair(0.3, -0.2) : std::pair(0.0, 0.0));
     EXPECT_EQ(slopes(back), here ? std::pair(-0.3, 0.2) : std::pair(0.0, 0.0));
+  }
+}
+
+/// Three set-ups of two readings each: front, rear, and clamped anew; Z of each 10 mm on.
+ProbeStream three_set_ups(double x_mm) {
+  ProbeStream stream;
+  stream.source = "part.csv";
+  for (const int number : {1, 2, 3})
+    for (const double more : {0.0, 2.0}) {
+      stream.setup.push_back(number);
+      stream.reading_mm.push_back(number == 2 ? -x_mm : x_mm);
+      stream.c_rad.push_back(more);
+      stream.position_mm.push_back(10.0 * number + more);
+    }
+  stream.setups = {{.number = 1}, {.number = 2}, {.number = 3, .z_shift_mm = 4.0}};
+  return stream;
+}
+
+// Parts of 0.4 mm and of 25 mm: X_M tells the side by its sign, whatever its size.
+TEST(FitSetUps, SidesAndClampingsAreThoseOfTheReadings) {
+  for (const double x_mm : {0.4, 25.0}) {
+    ProbeStream stream = three_set_ups(x_mm);
+    const std::vector<PlacedSetUp> placed = place_set_ups(stream);
+    ASSERT_EQ(placed.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(placed[i].clamping, i < 2 ? 0U : 1U);
+      EXPECT_EQ(placed[i].root, i == 1 ? Root::rear : Root::front);
+      EXPECT_EQ(placed[i].z_shift_mm, i < 2 ? 0.0 : 4.0);
+      EXPECT_EQ(set_up_name(placed[i].set_up), "set-up " + std::to_string(i + 1));
+    }
+    using Ranges = std::vector<std::array<double, 2>>;
+    EXPECT_EQ(probed_ranges(stream, placed), (Ranges{{10.0, 22.0}, {26.0, 28.0}}));
+    stream.setups[1].rear = true;
+    EXPECT_EQ(place_set_ups(stream)[1].root, Root::rear);
+    stream.indication = Indication::relative;  // its sign tells nothing
+    stream.setups[0].rear = true, stream.setups[1].rear = false;
+    EXPECT_EQ(place_set_ups(stream)[0].root, Root::rear);
+    EXPECT_EQ(place_set_ups(stream)[1].root, Root::front);
+  }
+  ProbeStream one = cylinder(100, 3.0, 0.1);
+  one.setups[0].z_shift_mm = 4.0;
+  ASSERT_EQ(place_set_ups(one).size(), 1U);
+  EXPECT_EQ(place_set_ups(one)[0].z_shift_mm, 0.0) << "there is nothing that it is shifted against";
+}
+
+TEST(FitSetUps, ASideThatTheReadingsContradictIsNamedWithItsRow) {
+  const auto why = [](const ProbeStream& stream) -> std::string {
+    try {
+      place_set_ups(stream);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const double x_mm : {0.4, 25.0}) {
+    ProbeStream stream = three_set_ups(x_mm);
+    stream.setups[2].rear = true;
+    EXPECT_NE(why(stream).find("X_M of set-up 3 is positive, but the stated side is rear"),
+              std::string::npos);
+    stream = three_set_ups(x_mm);
+    stream.reading_mm[5] = -x_mm;
+    EXPECT_NE(why(stream).find("X_M of set-up 3 changes sign or is zero at data row 6"),
+              std::string::npos);
+    stream = three_set_ups(x_mm);
+    stream.reading_mm[3] = x_mm;
+    EXPECT_NE(why(stream).find("X_M of set-up 2 changes sign or is zero at data row 4"),
+              std::string::npos);
+    stream.setup.clear();
+    stream.setups.resize(1);
+    EXPECT_NE(why(stream).find("X_M changes sign or is zero at data row 3"), std::string::npos);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "correct/margin.hpp"
 #include "format/reason_words.hpp"
+#include "support/diagnosis_example.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -79,6 +80,63 @@ TEST(FollowingOnce, OfRowsIsWhatInterpolationTakes) {
               0.25 * (1.0 - kept), 2e-6);
 }
 
+// With 8 rows per revolution waves of order 7 and 9 look like waves of order 1, the first
+// backwards; interpolation keeps sinc²(1/8) of them, and the actuator all.
+TEST(FollowingOnce, OfWavesThatTheRowsMistakeIsTheirAmplitude) {
+  ToolSetup tool;
+  tool.rows_per_revolution = 8;
+  tool.speed_rpm = 60.0;
+  Actuator actuator;
+  actuator.natural_frequency_hz = actuator.sampling_hz = 1e9;
+  actuator.precompensate = false;
+  const double x = two_pi / 16.0, kept = std::pow(std::sin(x) / x, 2);
+  const std::complex<double> seventh(0.003, 0.001), ninth(-0.001, 0.002);  // cos + i sin
+  const std::complex<double> axis(0.02, 0.05);
+  const auto wave = [](double order, std::complex<double> size) {
+    return RepeatingMotion{example::fitted("spindle.radial_synchronous", {.order = order},
+                                           {size.real(), size.imag()})};
+  };
+  for (const bool both : {false, true}) {
+    std::vector<RepeatingMotion> motions{wave(9.0, ninth)};
+    if (both) motions.push_back(wave(7.0, seventh));
+    const std::complex<double> once =
+        kept * (std::conj(ninth) + (both ? seventh : 0.0)) - (1.0 - kept) * std::conj(axis);
+    const AxisEstimate target{{axis.real(), axis.imag(), 0.0, 0.0, 0.0}, {}};
+    const Correction made = make_correction(target, cylinder(), tool, actuator, motions);
+    EXPECT_NEAR(made.margin.following_once_mm, std::abs(once), 1e-7);
+  }
+}
+
+// Of a response that is known at few points: what straight lines and cubics between them differ by,
+// of each order: an eccentricity e makes a mean and a second order of e²/4R. Precompensation leaves
+// nothing else that turns with the part.
+TEST(FollowingOnce, WhatThePointsOfTheResponseDoNotShowIsAdded) {
+  ToolSetup tool;
+  Actuator actuator;
+  actuator.measured = {{15.0, 1.02, -0.1}, {40.0, 1.0, -0.3}, {90.0, 0.9, -0.9}};
+  const double first = 0.25 * actuator.between_points(10.0);
+  const double second =
+      0.25 * 0.25 / 160.0 * (actuator.between_points(0.0) + actuator.between_points(20.0));
+  ASSERT_GT(first, 1e-5);
+  ASSERT_GT(second, 1e-7);
+  const auto margin = [&] {
+    return make_correction(far_axis(), cylinder(), tool, actuator).margin;
+  };
+  const ActuatorMargin found = margin();
+  EXPECT_NEAR(found.following_unknown_mm, first + second, 0.01 * second);
+  EXPECT_NEAR(found.following_once_mm, first, 1e-3 * first);
+  EXPECT_GT(found.following_mm, found.following_unknown_mm);
+  // The reason has it if the actuator would follow without it.
+  const double rest = found.following_mm - found.following_unknown_mm;
+  for (const double limit : {0.5 * (rest + found.following_mm), 0.5 * rest}) {
+    actuator.following_limit_mm = limit;
+    const Reasons breaks = margin().breaks;
+    ASSERT_EQ(breaks.size(), 1u);
+    EXPECT_EQ(breaks.front().code, ReasonCode::following_error_exceeded);
+    EXPECT_EQ(breaks.front().number("unknown") != nullptr, limit > rest);
+  }
+}
+
 // With 12 rows per revolution no speed below 5000 rpm works: it is the rows that are named, and
 // they do.
 TEST(Remedy, OfTooFewRowsIsRows) {
@@ -115,6 +173,32 @@ TEST(Remedy, OfTooFewSetPointsIsTheSamplingAndTheSpeed) {
   EXPECT_TRUE(make_correction(far_axis(), cylinder(), tool, actuator).margin.follows);
   tool.speed_rpm = 600.0, actuator.sampling_hz = hz;
   EXPECT_TRUE(make_correction(far_axis(), cylinder(), tool, actuator).margin.follows);
+  actuator.sampling_hz = hz - 1.01 * 0.01 * 500.0;  // the next that was tried
+  EXPECT_FALSE(make_correction(far_axis(), cylinder(), tool, actuator).margin.follows);
+}
+
+// It is rounded down, so that the actuator does follow; below 10 rpm to tenths.
+TEST(Remedy, OfAStrokeIsASpeedThatIsRoundedDown) {
+  ToolSetup tool;
+  Actuator actuator;
+  actuator.stroke_mm = 0.1;
+  const Profile profile(far_axis().axis, cylinder(), tool);
+  const Spectrum spectrum(profile);
+  for (const auto& [rpm, said] : {std::pair{1234.9, 1234.0},
+                                  {599.9, 599.0},
+                                  {12.9, 12.0},
+                                  {9.99, 9.9},
+                                  {0.57, 0.5},
+                                  {0.0, 0.0}}) {
+    const Reason found = remedy(spectrum, profile, actuator, rpm);
+    EXPECT_EQ(found.code, ReasonCode::follows_at_speed);
+    ASSERT_EQ(found.parts.size(), 1u);
+    EXPECT_EQ(found.parts.front().code, rpm == 0.0    ? ReasonCode::at_no_speed
+                                        : rpm > 600.0 ? ReasonCode::at_speed
+                                                      : ReasonCode::at_speed_or_less);
+    if (rpm == 0.0) continue;
+    EXPECT_EQ(found.parts.front().number("speed")->value, said);
+  }
 }
 
 TEST(Remedy, OfAStrokeThatIsTooSmallIsNone) {

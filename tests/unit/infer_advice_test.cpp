@@ -27,12 +27,23 @@ TEST(InferAdvice, TheFastestOfThoseThatDoNearlyAsMuch) {
   EXPECT_EQ(chosen({0.99, 0.88, 0.60}, 0.85).plan, "slow");
 }
 
+// A rise of two in a hundred is worth a measurement, a smaller one is not.
+TEST(InferAdvice, ASmallRiseIsWorthNothing) {
+  const auto plan = [](double after) {
+    return choose({plans.data(), 1}, 0.9, {after}, 0.9, "nothing").plan;
+  };
+  EXPECT_EQ(plan(0.915), "");
+  EXPECT_EQ(plan(0.93), "slow");
+  EXPECT_EQ(choose({}, 0.9, {}, 0.9, "nothing").why_not, "nothing");
+}
+
 TEST(InferAdvice, NoneThatDoesNotMakeSureOrRaisesNothing) {
   for (const std::vector<double>& after :
        {std::vector{0.89, 0.7, 0.6}, {0.51, 0.5, 0.4}, {0.4, 0.3, 0.2}}) {
     const Separating of = chosen(after);
     EXPECT_EQ(of.plan, "");
     EXPECT_EQ(of.power_before, of.power);
+    EXPECT_EQ(of.minutes, 0.0);
     EXPECT_TRUE(of.why_not.starts_with("nothing tells them apart")) << of.why_not;
   }
 }
@@ -42,15 +53,16 @@ TEST(InferAdvice, ARankingHasTheWeightedMeans) {
   Ranking ranking(plans);
   EXPECT_FALSE(ranking.any());
   EXPECT_EQ(ranking.before(), 0.0);
-  ranking.count(0.5, {0.75, 1.0, 0.5}, 0.9, 1.0);
-  ranking.count(0.25, {1.0, 0.5, 0.25}, 0.9, 3.0);
+  ranking.count(0.5, {0.75, 1.0, 0.5}, 0.9, 0.125);
+  ranking.count(0.25, {1.0, 0.5, 0.25}, 0.9, 0.375);
   EXPECT_EQ(ranking.before(), (0.5 + 3.0 * 0.25) / 4.0);
   EXPECT_EQ(ranking.after(0), (0.75 + 3.0 * 1.0) / 4.0);
   EXPECT_EQ(ranking.after(1), (1.0 + 3.0 * 0.5) / 4.0);
   EXPECT_TRUE(ranking.any());
-  // Gains where it makes sure: 3 × 0.75 of the slow one, 0.5 of the fast one, none of the weak.
+  // Gains where it makes sure: 3 × 0.75 of the slow one, 0.5 of the fast one, none of the weak; of
+  // each an eighth.
   EXPECT_EQ(ranking.order(), (std::vector<std::size_t>{0, 1, 2}));
-  ranking.count(0.0, {0.5, 1.0, 0.0}, 0.9, 1.75);  // now 2.25 of each: the fastest first
+  ranking.count(0.0, {0.5, 1.0, 0.0}, 0.9, 1.75 / 8.0);  // now 2.25 of each: the fastest first
   EXPECT_EQ(ranking.order(), (std::vector<std::size_t>{1, 0, 2}));
 }
 

@@ -72,6 +72,19 @@ TEST(InferCrossValidation, IntervalsAreAsWideAsTheBlocksScatter) {
   EXPECT_GT(out.held_out_after_mm.high, out.held_out_after_mm.value);
 }
 
+// Of 20 blocks three hold a reading and the others nothing: a resampling of 20 misses all three
+// with probability 0.85^20 = 3.9 %, and 2.5 % of the resamplings are below the interval.
+TEST(InferCrossValidation, AnIntervalBeginsAt25InAThousand) {
+  std::vector<Fold> folds(20, {Eigen::MatrixXd::Zero(1, 1), 1.0, 1.0});
+  for (std::size_t b = 0; b < 3; ++b) folds[b].gram(0, 0) = 4.0;
+  Explained out;
+  cross_validate(Eigen::MatrixXd::Constant(1, 1, 12.0), folds, {}, {}, out);
+  EXPECT_NEAR(out.held_out_before_mm.value, std::sqrt(12.0 / 20.0), 1e-12);
+  EXPECT_EQ(out.held_out_before_mm.low, 0.0);
+  EXPECT_EQ(out.held_out_ratio.value, 1.0);
+  EXPECT_EQ(out.held_out_ratio.low, 1.0) << "of nothing";
+}
+
 TEST(InferCrossValidation, BlocksThatAreAlikeHaveNoInterval) {
   Eigen::MatrixXd table = drawn();
   for (Eigen::Index b = 1; b < blocks; ++b)

@@ -72,6 +72,37 @@ TEST(InferDictionary, TakesNothingThatIsBarred) {
   EXPECT_EQ(found(one.dictionary()), Dictionary::Set{});
 }
 
+// Nor in a pair. The search takes the first of two that are alike.
+TEST(InferDictionary, TakesNeitherWhatIsBarredNextToAnotherNorTheSecondOfTwoAlike) {
+  Measurement one(6, 10);
+  one.list[7].columns = one.list[3].columns;
+  one.plant(0), one.plant(3);
+  EXPECT_EQ(found(one.dictionary()), (Dictionary::Set{0, 3}));
+  one.list[0].barred = true;
+  EXPECT_EQ(found(one.dictionary()), Dictionary::Set{3});
+}
+
+// By least squares of all columns: what a rival cause leaves of the named prediction, over σ of the
+// residuals with all terms.
+TEST(InferDictionary, TheDistanceIsWhatTheRivalLeavesOfThePrediction) {
+  Measurement one(11, 3);
+  one.residuals += 2.0 * one.list[0].columns.col(1) / one.list[0].columns.col(1).norm();
+  const auto left = [](const Eigen::MatrixXd& of, const Eigen::MatrixXd& y) -> Eigen::MatrixXd {
+    return y - of * of.colPivHouseholderQr().solve(y);
+  };
+  Eigen::MatrixXd all(rows, 5), rival(rows, 5);
+  all << one.base, one.list[0].columns;
+  rival << one.base, one.list[2].columns;
+  const Eigen::VectorXd sizes = all.colPivHouseholderQr().solve(one.residuals).tail(2);
+  const double sigma = std::sqrt(left(all, one.residuals).squaredNorm() / (rows - 5));
+  const double expected = left(rival, one.list[0].columns * sizes).norm() / sigma;
+  const Class of = class_of(one.dictionary(), {0}, 0);
+  const auto found = std::ranges::find(of.members, "effect 2",
+                                       [](const Class::Member& m) { return m.rival.effect; });
+  ASSERT_NE(found, of.members.end());
+  EXPECT_NEAR(found->rival.distance, expected, 1e-9);
+}
+
 // Columns that span the same are told from each other by no data; others at right angles are.
 TEST(InferDictionary, AClassHoldsWhatSpansTheSame) {
   Measurement one(9, 10);
@@ -117,6 +148,34 @@ TEST(InferDictionary, TestsAreThoseOfEffectsThatShowAtAll) {
   one.list[1].pattern = true;
   one.list[2].largest = 1e-3;  // of 12 σ: never one
   EXPECT_EQ(one.dictionary().tests(), 2.0 + 5.0);
+  EXPECT_EQ(Dictionary({}, one.base).tests(), 1.0);
+}
+
+// Columns of length 5 show a size of 0.21 as 1.05 σ, and one of 0.19 as 0.95, below the noise.
+TEST(InferDictionary, ADirectionBelowOneSigmaAtItsLargestIsDropped) {
+  for (const double largest : {0.21, 0.27, 0.19}) {
+    Hypothesis one;
+    one.columns = 5.0 * Eigen::MatrixXd::Identity(8, 1);
+    one.largest = largest, one.tests = 30.0;
+    const Dictionary dictionary({one}, Eigen::VectorXd::Unit(8, 7));
+    EXPECT_EQ(dictionary.block(0).columns.size(), largest > 0.2 ? 1U : 0U);
+    EXPECT_EQ(dictionary.tests(), largest > 0.2 ? 30.0 : 1.0);
+  }
+}
+
+// 2 ln N of the choice among N places, and what a pattern costs (Eq. 78).
+TEST(InferDictionary, TheChoiceAmongManyCostsTwiceItsLogarithm) {
+  Measurement one(31, 3);
+  one.plant(1);
+  const auto criterion = [&](double tests, bool pattern) {
+    one.list[1].tests = tests, one.list[1].pattern = pattern;
+    const Dictionary dictionary = one.dictionary();
+    return dictionary.weighed(1, dictionary.beside({})).criterion;
+  };
+  const double alone = criterion(1.0, false);
+  EXPECT_NEAR(criterion(50.0, false) - alone, 2.0 * std::log(50.0), 1e-9);
+  EXPECT_NEAR(criterion(50.0, true) - alone, 2.0 * std::log(50.0) + catalogue_first, 1e-9);
+  EXPECT_EQ(criterion(0.5, false), alone) << "no choice pays";
 }
 
 // Columns at right angles count one each. Of three whose correlations are all r the eigenvalues are
@@ -137,6 +196,22 @@ TEST(InferDictionary, IndependentTestsAreThoseOfTheEigenvalues) {
   EXPECT_NEAR(independent(0.0), 3.0, 1e-12);
   EXPECT_NEAR(independent(0.6), 2.0, 1e-12);
   EXPECT_EQ(Dictionary({}, Eigen::VectorXd::Unit(8, 7)).independent_tests(), 0.0);
+}
+
+// An effect with a phase that the rows do not show may be there at any size.
+TEST(InferDictionary, WhatDoesNotShowInOnePhaseIsNotDetectable) {
+  Measurement one(29, 3);
+  one.list[1].columns.col(1) = 2.0 * one.list[1].columns.col(0);
+  one.list[2].largest = 1e-3;  // of 12 σ: never one
+  const Dictionary dictionary = one.dictionary();
+  const SearchOptions options{0.01, dictionary.tests()};
+  const Detection detection(dictionary, {}, 1.0, options);
+  for (const std::size_t k : {1U, 2U}) {
+    EXPECT_EQ(detection.lambda(k), 0.0);
+    EXPECT_TRUE(std::isinf(detection.detectable_size(k)));
+    EXPECT_EQ(detection.power(k, 1e3), options.effects().single_level(0.01));
+  }
+  EXPECT_LT(detection.detectable_size(0), 10.0);
 }
 
 // In the phase that shows it least λ of a size is its square times the least eigenvalue of the

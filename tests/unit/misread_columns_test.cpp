@@ -2,19 +2,22 @@
 // Each mend of a column undoes the misreading that it is for, and leaves an ordinary stream alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "fit/mend_columns.hpp"
+#include "fit/plausible.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
 /// An eccentric part with lobes along 20 revolutions, 37 readings each, from 0.4 rad on.
-ProbeStream run_out(double sense = 1.0) {
+ProbeStream run_out(double sense = 1.0, double readings = 37.0) {
   ProbeStream stream;
   for (int i = 0; i <= 20 * 37; ++i) {
-    const double c = 0.4 + sense * two_pi * i / 37.0;
+    const double c = 0.4 + sense * two_pi * i / readings;
     stream.c_rad.push_back(c);
     stream.reading_mm.push_back(20.0 + 0.2 * std::cos(c - 1.0) + 0.002 * std::cos(3.0 * c));
     stream.position_mm.push_back(0.05 * i);
@@ -109,6 +112,131 @@ TEST(MisreadColumns, AGapOfManyTurnsIsNotLookedThrough) {
   for (double& c : stream.c_rad) c *= 1.3171;
   turn_as_reading_does(stream);
   EXPECT_NEAR(stream.c_rad[399] / right.c_rad[399], 1.0, 2e-3);
+}
+
+bool alike(const std::vector<double>& found, const std::vector<double>& expected) {
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (std::abs((found[i] - found[0]) - (expected[i] - expected[0])) > 1e-7) return false;
+  return true;
+}
+
+/// What a stream is misread as, where only `right` is a part's: of it a fit leaves `again_mm` in
+/// place of 90 µm.
+std::string misread_as(const ProbeStream& stream, const ProbeStream& right, double again_mm = 1e-4,
+                       std::size_t points = 741) {
+  FitResult found;
+  found.surface = SurfaceKind::cylinder;
+  found.residual_mm.assign(stream.size(), 0.09), found.rms_mm = 0.09;
+  return likely_misreading(stream, found, [&](const ProbeStream& tried, SurfaceKind) {
+    FitResult again;
+    again.status = FitStatus::converged, again.points = points, again.parameters.resize(5);
+    const bool same = alike(tried.c_rad, right.c_rad) &&
+                      alike(tried.reading_mm, right.reading_mm) &&
+                      alike(tried.position_mm, right.position_mm);
+    again.rms_mm = same ? again_mm : 0.08;
+    return again;
+  });
+}
+
+/// The angle of every row changed.
+template <class Change>
+ProbeStream with_c(ProbeStream stream, Change change) {
+  for (double& c : stream.c_rad) c = change(c);
+  return stream;
+}
+
+// Every unit under the header of every other, and angles that restart or count otherwise. 17
+// readings per revolution are 3 if radians are read as revolutions: a spindle has more.
+TEST(FitMisreading, EachWayToReadAStreamIsFound) {
+  const ProbeStream right = run_out(1.0, 17.0);
+  const struct {
+    double factor;
+    const char* what;
+  } units[] = {{rad_per_deg, "C is in radians"},       {two_pi, "C is in radians"},
+               {1.0 / rad_per_deg, "C is in degrees"}, {360.0, "C is in degrees"},
+               {1.0 / 360.0, "C is in turns"},         {1.0 / two_pi, "C is in turns"},
+               {1.0 / 0.9, "C has 400 gon"},           {2.0, "C runs at twice the angle"},
+               {0.5, "C runs at half the angle (or"}};
+  for (const auto& [factor, what] : units) {
+    const std::string found =
+        misread_as(with_c(right, [&](double c) { return factor * c; }), right);
+    EXPECT_TRUE(found.starts_with(what)) << factor << ' ' << found;
+  }
+  const auto restarts = [](double turn) {
+    return [turn](double c) { return c - turn * std::floor(c / turn); };
+  };
+  for (const auto& [turn, what] :
+       {std::pair{0.5, "C restarts every 180°"}, {0.25, "C restarts every 90°"}}) {
+    const std::string found = misread_as(with_c(right, restarts(turn * two_pi)), right);
+    EXPECT_TRUE(found.starts_with(what)) << turn << ' ' << found;
+  }
+  const std::string half =
+      misread_as(with_c(right, [&](double c) { return restarts(0.5 * two_pi)(0.5 * c); }), right);
+  EXPECT_TRUE(half.starts_with("C restarts after a revolution that does not have 360°")) << half;
+}
+
+// A third of the residuals as written, for half the angle a tenth; enough readings for two fits.
+TEST(FitMisreading, AnotherWayIsTakenIfItIsFarBetter) {
+  const ProbeStream right = run_out();
+  const ProbeStream gon = with_c(right, [](double c) { return c / 0.9; });
+  EXPECT_NE(misread_as(gon, right, 0.0295), "");
+  EXPECT_EQ(misread_as(gon, right, 0.0305), "");
+  EXPECT_NE(misread_as(gon, right, 1e-4, 20), "");
+  EXPECT_EQ(misread_as(gon, right, 1e-4, 19), "");
+  const ProbeStream half = with_c(right, [](double c) { return 0.5 * c; });
+  EXPECT_NE(misread_as(half, right, 0.0088), "");
+  EXPECT_EQ(misread_as(half, right, 0.0092), "");
+  // In the words of the numbers as written and otherwise.
+  EXPECT_NE(
+      misread_as(gon, right, 1e-4)
+          .find("As written the residuals are 90 µm RMS (C from 25.46° to 8025°, 22.2 revolutions, "
+                "0.601 per mm), otherwise 0.1 µm (C from 22.92° to 7223°, 20 revolutions, 0.541 "
+                "per mm)"),
+      std::string::npos)
+      << misread_as(gon, right, 1e-4);
+}
+
+// At half the angle the ovality would be the run-out, and its eccentricity of a fifth is left.
+TEST(FitMisreading, AnOvalPartThatRunsTrueIsAPart) {
+  ProbeStream stream = run_out();
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const double c = stream.c_rad[i];
+    stream.reading_mm[i] = 20.0 + 0.1 * std::cos(2.0 * c + 0.3) + 0.02 * std::cos(c - 1.0);
+  }
+  FitOptions options;
+  options.surface = SurfaceKind::cylinder;
+  EXPECT_EQ(fit(stream, options).status, FitStatus::converged);
+}
+
+// Nine tenths of a revolution are a turn; steps of a quarter are of one.
+TEST(FitMisreading, WhatIsReadOtherwiseGoesRound) {
+  for (const double turns : {0.88, 0.92}) {
+    ProbeStream right = run_out();
+    for (double& c : right.c_rad) c *= turns / 20.0;
+    const ProbeStream radians = with_c(right, [](double c) { return rad_per_deg * c; });
+    EXPECT_EQ(misread_as(radians, right) != "", turns > 0.9) << turns;
+  }
+  for (const double step : {0.24, 0.26}) {
+    ProbeStream right = run_out();
+    for (double& c : right.c_rad) c *= 37.0 * step;
+    const ProbeStream degrees = with_c(right, [](double c) { return c / rad_per_deg; });
+    EXPECT_EQ(misread_as(degrees, right) != "", step < 0.25) << step;
+  }
+}
+
+TEST(FitMisreading, ColumnsAreExchanged) {
+  const ProbeStream right = run_out();
+  ProbeStream stream = right;
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    stream.c_rad[i] = right.position_mm[i] * rad_per_deg * 0.1;  // a tenth of 37 mm as degrees
+    stream.position_mm[i] = right.c_rad[i] / rad_per_deg;
+  }
+  ProbeStream shorter = right;
+  for (double& z : shorter.position_mm) z *= 0.1;
+  EXPECT_TRUE(misread_as(stream, shorter).starts_with("C and Z are exchanged"));
+  stream = right;
+  std::swap(stream.reading_mm, stream.position_mm);
+  EXPECT_TRUE(misread_as(stream, right).starts_with("X_M and Z are exchanged"));
 }
 
 }  // namespace

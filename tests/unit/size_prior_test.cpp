@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "infer/size_posterior.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -60,6 +63,87 @@ TEST(SizePrior, TheMarginalLikelihoodIsTheIntegral) {
   EXPECT_EQ(compared, 2 * (3 * 4 + 3 + 2 + 2));  // spreads; of each a those within
 }
 
+/// Eq. 80 written out for columns that are not at right angles.
+Weighed by_equation_80(const SizePrior& prior, const Eigen::MatrixXd& gram,
+                       const Eigen::VectorXd& right, double rss, double freedom) {
+  const Eigen::Index n = gram.rows();
+  const double left = rss - right.dot(gram.inverse() * right);
+  const double variance = left / (freedom - static_cast<double>(n));
+  double sum = 0.0;
+  Weighed out;
+  out.mean = out.precision = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(n, n);
+  for (const double at : {-2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0}) {
+    const double weight = at <= 3.0 ? normal(at, 1.0) : at < 5.0 ? 1e-4 : at < 7.0 ? 1e-5 : 1e-6;
+    const Eigen::VectorXd s2 = (std::exp(prior.spread * at) * prior.median).array().square();
+    const Eigen::MatrixXd adds = variance * Eigen::MatrixXd(s2.cwiseInverse().asDiagonal());
+    const Eigen::MatrixXd inverse = (gram + adds).inverse();
+    const Eigen::VectorXd mean = inverse * right;
+    const Eigen::MatrixXd widths =
+        Eigen::MatrixXd::Identity(n, n) + s2.asDiagonal() * gram / variance;
+    const double posterior = weight * std::pow(1.0 - right.dot(mean) / rss, -0.5 * freedom) /
+                             std::sqrt(widths.determinant());
+    sum += posterior;
+    out.mean += posterior * mean;
+    out.precision += posterior * adds.diagonal();
+    squares += posterior * (variance * inverse + mean * mean.transpose());
+  }
+  out.criterion = -2.0 * std::log(sum);
+  out.mean /= sum, out.precision /= sum;
+  out.covariance = squares / sum - out.mean * out.mean.transpose();
+  return out;
+}
+
+// Sizes from below the median to eight spreads above it. Densities that are rounded to 1 % move the
+// criterion by 0.02, and the moments by 1 % of what they are about.
+TEST(SizePrior, IsEquation80OverNineScales) {
+  const Eigen::Vector2d median(0.05, 0.2);
+  const Eigen::Matrix2d gram{{40.0, 9.0}, {9.0, 5.0}};
+  const SizePrior prior{median, 0.8};
+  for (const double spreads : {-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0}) {
+    const Eigen::Vector2d size =
+        std::exp(0.8 * spreads) * median.cwiseProduct(Eigen::Vector2d(1.0, -0.7));
+    for (const double sds : {0.5, 3.0, 12.0}) {  // how well the readings show it
+      const Eigen::Vector2d right = gram * size;
+      const double square = size.dot(right), rss = square * (1.0 + 28.0 / (sds * sds));
+      const Weighed found = weigh(prior, gram, right, gram.diagonal(), rss, 30.0);
+      const Weighed expected = by_equation_80(prior, gram, right, rss, 30.0);
+      SCOPED_TRACE(testing::Message() << spreads << " spreads, " << sds << " of its u");
+      EXPECT_NEAR(found.criterion, expected.criterion, 0.02);
+      EXPECT_LT((found.mean - expected.mean).norm(), 0.01 * size.norm());
+      EXPECT_LT((found.covariance - expected.covariance).norm(),
+                0.02 * (expected.covariance.norm() + size.squaredNorm()));
+      EXPECT_LT((found.precision - expected.precision).norm(), 0.02 * expected.precision.norm());
+    }
+  }
+}
+
+// One normal a scale: together they have weigh's mean and covariance. Few rows, so that their
+// number counts.
+TEST(SizePrior, ThePartsOfThePosteriorHaveItsMoments) {
+  Eigen::MatrixXd table(9, 4);
+  for (Eigen::Index i = 0; i < table.rows(); ++i) {
+    const auto x = static_cast<double>(i);
+    table.row(i) << 0.4 * std::cos(2.0 * x) + std::sin(0.7 * x * x), 1.0, std::cos(2.0 * x),
+        std::cos(2.0 * x) + 0.3 * std::sin(x);
+  }
+  const Eigen::MatrixXd gram = table.transpose() * table;
+  const infer::Projection beside(gram, {1});
+  const SizePrior prior{Eigen::Vector2d(0.1, 0.3), 1.0};
+  const Weighed whole = infer::weigh(prior, beside, {2, 3}, 9);
+  double sum = 0.0;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (const infer::SizePart& part : infer::size_posterior(prior, beside, {2, 3}, 9)) {
+    sum += part.weight;
+    mean += part.weight * part.mean;
+    squares += part.weight * (part.covariance + part.mean * part.mean.transpose());
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_LT((mean - whole.mean).norm(), 1e-12);
+  EXPECT_LT((squares - mean * mean.transpose() - whole.covariance).norm(), 1e-12);
+}
+
 TEST(SizePrior, WhatTheDataDoNotDetermineShrinksAndWhatTheyDoStays) {
   EXPECT_NEAR(weighed(1e6, 0.7, 0.5, 1.0).mean(0), 0.7, 1e-5);
   const Weighed loose = weighed(0.05, 6.0, 0.2, 1.0);  // 6.0 ± 4.5 where 0.2 is usual
@@ -87,6 +171,27 @@ TEST(SizePrior, AnUnknownSizeIsTheBic) {
             Eigen::VectorXd::Constant(1, gram * a_hat), Eigen::VectorXd::Constant(1, gram), rss, n)
           .criterion;
   EXPECT_NEAR(criterion, n * std::log(1.0 - gram * a_hat * a_hat / rss) + std::log(n), 0.1);
+}
+
+// A column x in another unit has the same criterion, and a size in that unit. If there is one
+// degree of freedom, of which x explains the share q, S = y²/x² and σ² = (1 − q) y² in Eq. 80.
+TEST(SizePrior, AnUnknownSizeHasNoUnit) {
+  const SizePrior unknown{Eigen::VectorXd::Zero(1), 1.0};
+  constexpr double square = 0.3, share = 0.4;
+  for (const double unit : {1e-4, 1.0, 1e3}) {
+    const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
+    const Eigen::VectorXd norm2 = one(5.0 * unit * unit);
+    const Weighed found = weigh(unknown, Eigen::MatrixXd(norm2),
+                                one(std::sqrt(share * norm2(0) * square)), norm2, square, 1.0);
+    EXPECT_NEAR(found.criterion,
+                std::log(1.0 - share / (2.0 - share)) + std::log(1.0 + 1.0 / (1.0 - share)), 1e-9);
+    EXPECT_NEAR(found.mean(0) * unit, std::sqrt(share * square / 5.0) / (2.0 - share), 1e-9);
+  }
+  // A column of zeros has no size and costs nothing.
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1);
+  const Weighed none = weigh(unknown, Eigen::MatrixXd(zero), zero, zero, square, 10.0);
+  EXPECT_EQ(none.criterion, 0.0);
+  EXPECT_EQ(none.mean(0), 0.0);
 }
 
 // A sensor whose gain is 79 % off does not exist: however well the readings show it.
@@ -132,6 +237,8 @@ TEST(SizePrior, ASizeBeyondThreeSpreadsIsExtraordinary) {
     EXPECT_FALSE(weighed(1e6, sign * 9.8, 0.5, 1.0).extraordinary);
     EXPECT_TRUE(weighed(1e6, sign * 10.3, 0.5, 1.0).extraordinary);
     EXPECT_FALSE(weighed(1e6, sign * 10.3, 0.0, 1.0).extraordinary);  // no size is known
+    EXPECT_FALSE(weighed(1e6, sign * 0.98, 0.05, 1.0).extraordinary);
+    EXPECT_TRUE(weighed(1e6, sign * 1.03, 0.05, 1.0).extraordinary);
   }
 }
 
@@ -157,12 +264,16 @@ TEST(SizePrior, AStatedSizeThatIsDoubtedIsAMixture) {
   const double s2 = 0.1 * 0.1, wider = 1.0 + gram * s2;
   EXPECT_NEAR(stated.mean(0), a_hat * gram * s2 / wider, 1e-5);
   EXPECT_NEAR(stated.criterion, std::log(wider) - gram * a_hat * a_hat * gram * s2 / wider, 1e-3);
+  EXPECT_NEAR(stated.covariance(0, 0), s2 / wider, 1e-5 * s2);
+  EXPECT_NEAR(stated.precision(0), 1.0 / s2, 1e-4 / s2);
   for (const double doubt : {0.05, 0.5}) {
     const Weighed both = of(0.2, doubt);
     const double a = (1.0 - doubt) * std::exp(-0.5 * stated.criterion);
     const double b = doubt * std::exp(-0.5 * typical.criterion);
     EXPECT_NEAR(both.criterion, -2.0 * std::log(a + b), 1e-8);
     EXPECT_NEAR(both.mean(0), (a * stated.mean(0) + b * typical.mean(0)) / (a + b), 1e-8);
+    EXPECT_NEAR(both.precision(0), (a * stated.precision(0) + b * typical.precision(0)) / (a + b),
+                1e-6);
   }
 }
 

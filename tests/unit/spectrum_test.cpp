@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "correct/profile.hpp"
+#include "support/diagnosis_example.hpp"
 
 namespace trueaxis {
 namespace {
@@ -29,6 +30,41 @@ TEST(Spectrum, SlopeIsTheDerivativeOfTheValue) {
     for (std::size_t i = 0; i < at.size(); ++i) {
       const auto slope = (after[i].value - before[i].value) / (2.0 * step_mm);
       EXPECT_LT(std::abs(at[i].slope - slope), 1e-9) << spectrum.orders()[i] << " at " << z;
+    }
+  }
+}
+
+// A cos nC + B sin nC in the angle ψ of the cut, C = c_start ± ψ: a_n = (A ∓ iB) e^(±i n c_start).
+// Orders up to 16 are there, and no other; what grows along Z is so at any place.
+TEST(Spectrum, HasTheWavesThatTheToolFollows) {
+  for (const int sense : {1, -1}) {
+    ToolSetup tool;
+    tool.sense = sense;
+    tool.c_start_rad = 0.7;
+    std::vector<RepeatingMotion> motions;
+    for (const double order : {3.0, 16.0})
+      motions.push_back({example::fitted("spindle.radial_synchronous", {.order = order},
+                                         {0.002 * order, -0.001})});
+    const TargetSurface cylinder{
+        .kind = TargetKind::cylinder, .z_start_mm = 10.0, .z_end_mm = 50.0, .radius_mm = 8.0};
+    const Spectrum round(Profile(Axis{}, cylinder, tool, motions));
+    EXPECT_EQ(round.orders(), (std::vector<int>{3, 16}));
+    const Profile leaning(Axis{0.30, -0.1, 4e-3, 8e-3, 0.0}, cylinder, tool, motions);
+    const Spectrum spectrum(leaning);
+    std::vector<SlowAmplitude> found;
+    for (const double z : {10.0, 23.0, 37.0, 50.0}) {
+      round.at(z, found);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double n = round.orders()[i];
+        const std::complex<double> size(0.002 * n, sense * 0.001);
+        EXPECT_LT(std::abs(found[i].value - size * std::polar(1.0, sense * n * 0.7)), 1e-12);
+      }
+      spectrum.at(z, found);
+      const auto expected = harmonics_at(leaning, z, 16);
+      for (std::size_t i = 0; i < found.size(); ++i)
+        EXPECT_LT(
+            std::abs(found[i].value - expected[static_cast<std::size_t>(spectrum.orders()[i])]),
+            1e-9);
     }
   }
 }

@@ -155,5 +155,34 @@ TEST(OwnSurfaceProfile, ItsDerivativesAreThoseOfItsPrediction) {
   }
 }
 
+// A profile of one's own that is a cone has the numbers of the catalogue's, on both sides.
+TEST(OwnSurfaceProfile, AConeHasTheNumbersOfACone) {
+  for (const Root root : {Root::front, Root::rear}) {
+    SurfaceFrame frame;
+    frame.position_ref_mm = 55.0, frame.half_length_mm = 30.0, frame.root = root;
+    const double secant = std::hypot(1.0, 0.08, 0.05);
+    const std::vector<double> of_own{1.3, -0.7, 0.08, -0.05, 29.0, 0.2};
+    const std::vector<double> of_cone{1.3, -0.7, 0.08, -0.05, 29.0 + 0.2 * 55.0 * secant, 0.2};
+    const auto own = own_entry(std::make_shared<testing::ConicalProfile>()).make(frame);
+    const auto cone = catalogue_entry(SurfaceKind::cone).make(frame);
+    EXPECT_NEAR(own->shape(of_own).radius_mm, of_cone[4], 1e-12);
+    EXPECT_NEAR(own->shape(of_own).tan_half_angle, 0.2, 1e-15);
+    EXPECT_EQ(own->axis_jacobian(of_own), cone->axis_jacobian(of_cone));
+    const Surface::Reported a = own->report(of_own), b = cone->report(of_cone);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(a.value[i], b.value[i], 1e-12) << i;
+      for (std::size_t j = 0; j < 6; ++j)
+        EXPECT_NEAR(a.jacobian[6 * i + j], b.jacobian[6 * i + j], 1e-12) << i << ' ' << j;
+    }
+    for (double c = 0.0; c < 6.0; c += 0.7) {
+      const auto found = own->influences(of_own, c, 40.0 + c);
+      const auto expected = cone->influences(of_cone, c, 40.0 + c);
+      EXPECT_NEAR(found.height, expected.height, 1e-11);
+      EXPECT_NEAR(found.c, expected.c, 1e-10);
+      EXPECT_NEAR(found.position, expected.position, 1e-11);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis

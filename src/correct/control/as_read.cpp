@@ -35,7 +35,9 @@ void numbers_of(std::string_view line, std::vector<double>& numbers) {
   }
 }
 
-Profile wanted_profile(const Correction& c) { return {c.axis.axis, c.target, c.tool, c.motions}; }
+Profile wanted_profile(const Correction& c) {
+  return {c.commanded_axis(), c.target, c.tool, c.motions};
+}
 
 /// Of a table over C and the position: at every node and between two, along the part of the path
 /// from `low_mm` to `high_mm`.

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines of an uncertainty budget, against fits of readings that have what each is about.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "fit/associate.hpp"
+#include "fit/uncertainty.hpp"
+#include "math/statistics.hpp"
+#include "trueaxis/fit.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::fit_budget_test {
+namespace {
+
+using Kind = Influence::Kind;
+
+/// What a lathe does to the readings of a cone.
+struct Lathe {
+  double gain = 0.0, c_rad = 0.0, z_mm = 0.0, height_mm = 0.0;
+};
+
+/// Readings of a cone that leans and runs out, over 50 mm; half of them after it was clamped anew.
+ProbeStream cone(const Lathe& lathe, bool twice = false) {
+  ProbeStream stream;
+  constexpr int count = 720;
+  for (int i = 0; i < count; ++i) {
+    const bool second = twice && 2 * i >= count;
+    const Revolved surface{
+        second ? Axis{-0.3, 0.7, -1e-3, 2e-3, 20.0} : Axis{0.8, -0.5, 2e-3, 3e-3, 20.0}, 25.0,
+        0.12};
+    const double c = 0.4 + two_pi * i / 37.3, z = 50.0 * i / count;
+    stream.c_rad.push_back(c + lathe.c_rad);
+    stream.position_mm.push_back(z + lathe.z_mm);
+    stream.reading_mm.push_back(intersect(surface, c, z, lathe.height_mm).x_mm);
+    if (twice) stream.setup.push_back(second ? 2 : 1);
+  }
+  if (twice) stream.setups = {{.number = 1}, {.number = 2, .clamp_force_ratio = 1.5}};
+  double mean = 0.0;
+  for (const double x : stream.reading_mm) mean += x / count;
+  for (double& x : stream.reading_mm) x += lathe.gain * (x - mean);
+  return stream;
+}
+
+std::vector<double> values(const FitResult& fit) {
+  std::vector<double> out;
+  for (const FitParameter& one : fit.parameters) out.push_back(one.estimate.value);
+  return out;
+}
+
+/// What a fit says that an influence of this u contributes to each parameter.
+std::vector<double> contributions(const ProbeStream& stream, const Influence& influence) {
+  FitOptions options;
+  options.influences = {influence, {Kind::probe_delay, 1.0}};  // the other is not of a fit
+  const FitResult found = fit(stream, options);
+  EXPECT_EQ(found.status, FitStatus::converged) << found.message;
+  EXPECT_EQ(found.budget.size(), 2U);
+  EXPECT_EQ(found.budget.back().source, info_of(influence.kind).name);
+  EXPECT_EQ(found.budget.back().type, 'B');
+  return found.budget.back().u;
+}
+
+// The influence is small enough for second orders to be below 1e-3 of the first. At its height the
+// probe sees the derivative there.
+TEST(FitBudget, AnInfluenceContributesWhatItDoesToAFit) {
+  constexpr double u = 1e-4, height_mm = 1.5;
+  for (const bool twice : {false, true}) {
+    const ProbeStream stream = cone({}, twice);
+    const std::vector<double> as_it_is = values(fit(stream, {}));
+    const auto expect_moved = [&](const Influence& influence, const ProbeStream& other,
+                                  const FitOptions& options = {}) {
+      const std::vector<double> found = contributions(stream, influence);
+      const std::vector<double> moved = values(fit(other, options));
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        const double expected = std::abs(moved[i] - as_it_is[i]);
+        EXPECT_NEAR(found[i], expected, 2e-3 * expected + 1e-9)
+            << info_of(influence.kind).name << ", parameter " << i << (twice ? ", twice" : "");
+      }
+    };
+    if (!twice) expect_moved({Kind::probe_gain, u}, cone({.gain = u}));
+    expect_moved({Kind::c_offset, u}, cone({.c_rad = u}, twice));
+    expect_moved({Kind::z_offset, u}, cone({.z_mm = u}, twice));
+    ProbeStream higher = stream;
+    const ProbeStream at = cone({.height_mm = height_mm}, twice);
+    const ProbeStream above = cone({.height_mm = height_mm + u}, twice);
+    for (std::size_t i = 0; i < higher.size(); ++i)
+      higher.reading_mm[i] += above.reading_mm[i] - at.reading_mm[i];
+    expect_moved({Kind::probe_height, u, height_mm}, higher);
+    FitOptions ball;
+    ball.ball_radius_mm = u;
+    expect_moved({Kind::ball_radius, u}, stream, ball);
+  }
+}
+
+// Eq. 33 (Huber 1981, section 7.6): k² Σψ²/(N − p) over the square of the mean of ψ′, k = 1 + p/N
+// var ψ′/(mean ψ′)², times (JᵀJ)⁻¹, which the plain fit shows next to its own σ². At both minima it
+// is the same to a few u of the slopes.
+TEST(FitBudget, ARobustLossHasTheUOfEquation33) {
+  ProbeStream stream = cone({});
+  std::mt19937_64 random(51);
+  std::normal_distribution<double> normal(0.0, 2e-3);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    stream.reading_mm[i] += normal(random) * (i % 9 == 0 ? 6.0 : 1.0);
+  const FitResult plain = fit(stream, {});
+  const double n = static_cast<double>(stream.size()), p = 6.0;
+  for (const Loss loss : {Loss::huber, Loss::tukey}) {
+    FitOptions options;
+    options.loss = loss;
+    const FitResult robust = fit(stream, options);
+    ASSERT_EQ(robust.status, FitStatus::converged);
+    EXPECT_EQ(robust.sigma_source, SigmaSource::robust_residuals);
+    const double c = (loss == Loss::huber ? 1.345 : 4.685) * robust.sigma_mm;
+    double squares = 0.0, mean = 0.0, mean2 = 0.0;
+    for (const double r : robust.residual_mm) {
+      const double v = r / c, w = std::abs(v) < 1.0 ? 1.0 - v * v : 0.0;
+      const double psi = loss == Loss::tukey ? r * w * w : std::clamp(r, -c, c);
+      const double slope =
+          loss == Loss::tukey ? w * (1.0 - 5.0 * v * v) : (std::abs(v) <= 1.0 ? 1.0 : 0.0);
+      squares += psi * psi, mean += slope / n, mean2 += slope * slope / n;
+    }
+    const double k = 1.0 + p / n * (mean2 - mean * mean) / (mean * mean);
+    const double sigma = k * std::sqrt(squares / (n - p)) / mean;
+    for (std::size_t i = 0; i < robust.parameters.size(); ++i) {
+      const double per_sigma = plain.parameters[i].estimate.u / plain.sigma_mm;
+      EXPECT_NEAR(robust.parameters[i].estimate.u, sigma * per_sigma, 2e-3 * sigma * per_sigma);
+    }
+  }
+}
+
+// By more than 3, either way, if five degrees of freedom show it.
+TEST(FitBudget, AStatedNoiseIsDoubtedBeyondAFactorOfThree) {
+  EXPECT_TRUE(noise_disagrees(0.5, 1.51, 5.0));
+  EXPECT_FALSE(noise_disagrees(0.5, 1.49, 500.0));
+  EXPECT_TRUE(noise_disagrees(0.5, 0.166, 7.0));
+  EXPECT_FALSE(noise_disagrees(0.5, 0.168, 500.0));
+  EXPECT_FALSE(noise_disagrees(0.5, 9.0, 4.9));
+  EXPECT_FALSE(noise_disagrees(0.0, 9.0, 500.0)) << "none is stated";
+}
+
+// In mm on the surface, its largest part positive; it does not name parts below a twentieth.
+TEST(FitBudget, ADirectionHasItsNames) {
+  const std::vector<std::string> names{"x", "slope", "radius", "y"};
+  const std::vector<double> scale_mm{1.0, 10.0, 1.0, 1.0};
+  const auto named = [&](const Eigen::Vector4d& sizes_mm) {
+    return name_direction(sizes_mm.cwiseProduct(Eigen::Vector4d(1.0, 0.1, 1.0, 1.0)), names,
+                          scale_mm);
+  };
+  EXPECT_EQ(named({3.0, -4.0, 0.0, 0.0}), "-0.60 x + 0.80 slope");
+  EXPECT_EQ(named({0.0, 4.0, -3.0, 0.0}), "0.80 slope - 0.60 radius");
+  EXPECT_EQ(named({0.04, 1.0, 0.0, 0.06}), "1.00 slope + 0.06 y");
+  EXPECT_EQ(named({-0.06, 1.0, 0.0, 0.04}), "-0.06 x + 1.00 slope");
+}
+
+/// u of the length of a plane vector: along it, or in the worse direction within that u.
+double u_of_length(const Eigen::Vector2d& v, const Eigen::Matrix2d& covariance) {
+  const double worst = std::sqrt(covariance.eigenvalues().real().maxCoeff());
+  return v.norm() > worst ? std::sqrt(v.dot(covariance * v)) / v.norm() : worst;
+}
+
+// Off the spindle axis, and on it, where no direction is better known than another.
+TEST(FitDerived, OffsetsAndTiltAreThoseOfTheAxis) {
+  ProbeStream centred = cone({});
+  for (std::size_t i = 0; i < centred.size(); ++i)
+    centred.reading_mm[i] = 25.0 + 0.12 * (centred.position_mm[i] - 20.0);
+  FitOptions options;
+  options.noise_mm = 2e-3;
+  for (const ProbeStream& stream : {cone({}), centred}) {
+    const FitResult found = fit(stream, options);
+    ASSERT_EQ(found.status, FitStatus::converged) << found.message;
+    const Axis& axis = found.axis.axis;
+    const Eigen::Matrix4d covariance =
+        Eigen::Map<const Eigen::Matrix4d>(found.axis.covariance.data());
+    for (const auto& [name, z] : {std::pair{"offset_at_min_z", found.position_min_mm},
+                                  {"offset_at_max_z", found.position_max_mm}}) {
+      Eigen::Matrix<double, 2, 4> at;
+      at << Eigen::Matrix2d::Identity(), (z - axis.z_ref_mm) * Eigen::Matrix2d::Identity();
+      const auto [x, y] = axis.at(z);
+      const Estimate& offset = found.parameter(name);
+      EXPECT_NEAR(offset.value, std::hypot(x, y), 1e-15);
+      EXPECT_NEAR(offset.u, u_of_length({x, y}, at * covariance * at.transpose()), 1e-9 * offset.u);
+    }
+    const Eigen::Vector2d slope(axis.slope_x, axis.slope_y);
+    EXPECT_NEAR(found.parameter("tilt").value, std::atan(slope.norm()), 1e-15);
+    EXPECT_NEAR(found.parameter("tilt").u, u_of_length(slope, covariance.bottomRightCorner<2, 2>()),
+                1e-12);
+    EXPECT_EQ(found.parameter("radius_mid").value, found.shape.radius_mm);
+  }
+}
+
+TEST(FitDerived, TheRmsOfATukeyLossIsOfWhatItKeeps) {
+  ProbeStream stream = cone({});
+  std::mt19937_64 random(52);
+  std::normal_distribution<double> normal(0.0, 2e-3);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    stream.reading_mm[i] += i % 90 == 7 ? 0.3 : normal(random);
+  for (const Loss loss : {Loss::plain, Loss::huber, Loss::tukey}) {
+    FitOptions options;
+    options.loss = loss;
+    const FitResult found = fit(stream, options);
+    std::vector<double> kept = found.residual_mm;
+    if (loss == Loss::tukey) {
+      ASSERT_GE(found.rejected.size(), 8U);
+      for (const Rejected& one : found.rejected) kept[one.row - 1] = 0.0;
+    }
+    double squares = 0.0;
+    for (const double r : kept) squares += r * r;
+    const double count = static_cast<double>(
+        kept.size() - (loss == Loss::tukey ? found.rejected.size() : std::size_t{0}));
+    EXPECT_NEAR(found.rms_mm, std::sqrt(squares / count), 1e-12);
+    const bool listed =
+        std::ranges::find(found.rejected, 8U, &Rejected::row) != found.rejected.end();
+    EXPECT_EQ(listed, loss != Loss::plain);
+  }
+}
+
+// The ball's centre runs on 22 to 28 mm: a ball of 24 mm leaves a radius below 0 at one end, here
+// the first; of a cylinder at both.
+TEST(FitDerived, ABallThatIsTooLargeIsNotedWhereItIs) {
+  FitOptions options;
+  options.ball_radius_mm = 24.0;
+  const FitResult found = fit(cone({}), options);
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_NE(found.notes.front().find("at Z = 0 mm, which is impossible"), std::string::npos)
+      << found.notes.front();
+  ProbeStream other = cone({});
+  for (double& z : other.position_mm) z = 50.0 - z;
+  const FitResult turned = fit(other, options);
+  ASSERT_FALSE(turned.notes.empty());
+  EXPECT_NE(turned.notes.front().find("at Z = 50 mm, which is impossible"), std::string::npos)
+      << turned.notes.front();
+  options.ball_radius_mm = 20.0;
+  EXPECT_TRUE(fit(cone({}), options).notes.empty());
+}
+
+}  // namespace
+}  // namespace trueaxis::fit_budget_test
