@@ -206,10 +206,16 @@ TEST_F(FixtureCommand, PointsSayTheDatums) {
   EXPECT_NEAR(value("Ezz"), 0.02, 1e-9);
   EXPECT_NEAR(value("Ezx"), q * std::atan(tilt) / tilt / rad_per_deg, 1e-9);
   EXPECT_NEAR(value("Ezy"), -p * std::atan(tilt) / tilt / rad_per_deg, 1e-9);
-  EXPECT_NEAR(value("Eyy"), -0.01, 1e-9);
-  EXPECT_NEAR(value("Eyx"), 0.0, 1e-9);
-  EXPECT_NEAR(value("Exx"), 0.03, 1e-9);
-  EXPECT_NEAR(value("Exz"), -std::atan(0.002) / rad_per_deg, 1e-9);  // its normal towards −y
+  // ZX is y = a + s z + t x with a normal (-t, 1, -s) square to that of XY: s = p t - q, so that
+  // y + q z = a + t (x + p z) by least squares; z = 0 … 75, x = 0 … 60.
+  const double var_z = 781.25, var_x = 500.0, t = p * q * var_z / (var_x + p * p * var_z),
+               s = p * t - q, lean = std::hypot(s, t);
+  EXPECT_NEAR(value("Eyy"), -0.01 + q * 37.5 - t * (30.0 + p * 37.5), 1e-9);
+  EXPECT_NEAR(value("Eyx"), -s * std::atan(lean) / lean / rad_per_deg, 1e-9);
+  // YZ has the normal of ZX × that of XY, and passes through the mean of its points.
+  const double x = 1.0 - s * q, y = s * p + t, z = t * q + p, turn = std::hypot(y, z) / x;
+  EXPECT_NEAR(value("Exx"), 0.03 + 0.002 * 37.5 + (y * 37.5 + z * 30.0) / x, 1e-9);
+  EXPECT_NEAR(value("Exz"), y / x * std::atan(turn) / turn / rad_per_deg, 1e-9);
   EXPECT_EQ(json.at("inputs").size(), 4U);
   EXPECT_TRUE(json.at("setup").at("X0W").at("u").is_number());
   expect_input_error("setup datums d.toml --json xy.csv", "xy.csv: is an input of this command");

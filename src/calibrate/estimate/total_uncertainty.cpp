@@ -213,8 +213,10 @@ class Together {
     }
     for (ErrorTerm& term : components) {
       const auto given = std::ranges::find(fit_.given.terms, term.name, &ErrorTerm::name);
-      term.known_over =
-          given != fit_.given.terms.end() ? given->known_over : measured_over(fit_.problem, term);
+      if (given != fit_.given.terms.end())
+        term.known_over = given->known_over;
+      else if (shows(term.name))
+        term.known_over = measured_over(fit_.problem, term);
       errors.terms.push_back(std::move(term));
     }
     for (std::size_t i = 0; i < held_.size(); ++i) {
@@ -224,6 +226,17 @@ class Together {
     add_covariance(errors.covariance, with_names(std::move(found), with_held()(which, which)));
     gather_uncertainty(errors);
     out.errors = std::move(errors);
+  }
+
+  /// Whether the readings show an error. Others are of plausible sizes, which U counts everywhere.
+  bool shows(const ErrorName& name) const {
+    const Index first = effects_.fixed.size();
+    for (std::size_t i = 0; i < amounts_.size(); ++i) {
+      const Index at = first + static_cast<Index>(i);
+      if (amounts_[i].name == name && std::abs(mean_[at]) > shown * std::sqrt(covariance_(at, at)))
+        return true;
+    }
+    return false;
   }
 
   /// The covariance of all, and of the held ones after it: an estimate is off by `by_held_` for

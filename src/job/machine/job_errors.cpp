@@ -79,4 +79,16 @@ ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) 
   return errors;
 }
 
+ErrorModel to_be_weighed(const MachineJob& job, ErrorModel errors) {
+  for (ErrorTerm& term : errors.terms) {
+    const bool given =
+        std::ranges::find(job.known.terms, term.name, &ErrorTerm::name) != job.known.terms.end();
+    const bool along = std::ranges::any_of(job.data, [&](const MachineMeasurement& file) {
+      return file.axis && index_of(*file.axis) == term.name.body;
+    });
+    if (!given && !along) term.known_over.reset();
+  }
+  return errors;
+}
+
 }  // namespace trueaxis::machine_job

@@ -120,7 +120,7 @@ MachineJobResult run_machine_job(MachineJob job, MachineDiagnosis diagnosis) {
   MachineJobVerdict numbers;
   if (result.diagnosis.baseline.converged) {
     result.errors = job_errors(result.job, result.diagnosis);
-    const MachineModel model(result.job.machine, result.errors);
+    const MachineModel model(result.job.machine, to_be_weighed(result.job, result.errors));
     if (result.job.program) compensate_program_of(result, model);
     const std::vector<ProgramEnd> ends =
         result.compensation ? cutting(result.compensation->ends) : std::vector<ProgramEnd>{};

@@ -23,6 +23,11 @@ bool beyond_measured(const AxisRange& range);
 /// have, the errors are those of the diagnosis, with the covariance of such a calibration.
 ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis);
 
+/// The same for the job's own program: how far balls and bars went is weighed by the verdict
+/// (machine-job.md). Beyond that an error that was found is NOT PROVEN, any other a reservation;
+/// ranges of given errors, read-outs and arrays stay.
+ErrorModel to_be_weighed(const MachineJob& job, ErrorModel errors);
+
 /// The largest distance of the tip between the ends of cutting blocks from the straight lines that
 /// the program has there. It is for the program as it was read, without the displacement of the
 /// part as a whole. @param ends of every move of the program, in its order
