@@ -10,7 +10,12 @@ function centredPolar({measured, found, words, description, asLine = false, size
   const out = step * Math.max(1, Math.ceil(Math.max(most, least) * 1.02 / step)), base = asLine ? 1.5 * out : 2 * out;
   const ring = Array.from({length: 121}, (_, i) => [0, i * 3]);
   const line = (name, values, more) => ({name, type: 'line', coordinateSystem: 'polar', symbol: 'none', emphasis: {disabled: true}, data: values, ...more});
-  const closed = (values) => values.length ? [...values, [values[0][0], values[0][1] + 360]] : values;
+  // Around the whole turn, but not across a stretch without readings.
+  const closed = (values) => {
+    if (!values.length) return values;
+    const widest = Math.max(15, 4 * 360 / values.length);
+    return [...values, [values[0][0], values[0][1] + 360]].flatMap((at, i) => i && at[1] - values[i - 1][1] > widest ? [['-', '-'], at] : [at]);
+  };
   const series = [line('circle', ring, {lineStyle: {type: 'dashed', color: colours.grey, width: 1}, itemStyle: {color: colours.grey}})];
   if (foundData.length) series.push(line('found', closed(foundData), {z: 5, lineStyle: {color: colours.model, width: 1.8}, itemStyle: {color: colours.model}}));
   series.push(asLine ? line(legendWords, closed(data), {z: 4, lineStyle: {color: colours.measured, width: 1.2}, itemStyle: {color: colours.measured}})

@@ -31,16 +31,18 @@ function keyNumbers(verdict) {
   const k = verdict.k;
   if (!data.target.of_cut) return measuredNumbers(verdict);
   const tolerance = isNumber(verdict.tolerance_mm) ? `${tick(verdict.tolerance_mm * 1000)}${nbsp}µm` : 'none given';
+  const of = data.target.references, face = of.length && of.every((r) => r.face), what = face ? 'Axial run-out' : 'Coaxiality';
+  const wanted = [face ? 'Tolerance (axial run-out)' : 'Tolerance (coaxiality, a diameter)', tolerance];
   if (!isNumber(verdict.coaxiality_after_mm)) {
-    return facts([['Coaxiality', 'not determined: there is no target axis'], ['Tolerance (coaxiality, a diameter)', tolerance]], 'numbers');
+    return facts([[what, 'not determined: there is no target axis'], wanted], 'numbers');
   }
   const worst = (data.target.datum ? [data.target.datum] : data.target.references).map((r) => r.before).filter(Boolean)
     .reduce((most, b) => !most || b.coaxiality_mm > most.coaxiality_mm ? b : most, null);
   const sameAsWorst = worst && Math.abs(worst.coaxiality_mm - verdict.coaxiality_before_mm) <= 1e-6 + 1e-3 * worst.coaxiality_mm;
   return facts([
-    ['Coaxiality before: cut about the spindle axis', plusMinus(verdict.coaxiality_before_mm, sameAsWorst ? worst.u_mm : null, k, 'U as after')],
-    ['Coaxiality after: cut with the correction', `${atMost(verdict.coaxiality_at_most_mm)} (95 % confidence)`],
-    ['Tolerance (coaxiality, a diameter)', tolerance],
+    [`${what} before: cut about the spindle axis`, plusMinus(verdict.coaxiality_before_mm, sameAsWorst ? worst.u_mm : null, k, 'U as after')],
+    [`${what} after: cut with the correction`, `${atMost(verdict.coaxiality_at_most_mm)} (95 % confidence)`],
+    wanted,
   ], 'numbers');
 }
 
