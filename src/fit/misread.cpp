@@ -117,6 +117,12 @@ constexpr Misreading misreadings[] = {
     // An oval part whose centre runs true would be one that runs out at half the angle.
     {"C runs at half the angle (or the part is oval and runs true)", "double it",
      &Suspicion::leaves_much, false, scale_c<2.0>, by_far_better},
+    {"C runs at half the angle and restarts every revolution", wrapped, &Suspicion::leaves_much,
+     false,
+     [](ProbeStream& s) {
+       unwrap_c<180>(s);
+       scale_c<2.0>(s);
+     }},
     {"X_M repeats at another angle than a revolution of C: C has another unit, or X_M is not from "
      "a probe",
      "check both columns", &Suspicion::leaves_much, false, turn_as_reading_does}};

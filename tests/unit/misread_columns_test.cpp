@@ -196,18 +196,6 @@ TEST(FitMisreading, AnotherWayIsTakenIfItIsFarBetter) {
       << misread_as(gon, right, 1e-4);
 }
 
-// At half the angle the ovality would be the run-out, and its eccentricity of a fifth is left.
-TEST(FitMisreading, AnOvalPartThatRunsTrueIsAPart) {
-  ProbeStream stream = run_out();
-  for (std::size_t i = 0; i < stream.size(); ++i) {
-    const double c = stream.c_rad[i];
-    stream.reading_mm[i] = 20.0 + 0.1 * std::cos(2.0 * c + 0.3) + 0.02 * std::cos(c - 1.0);
-  }
-  FitOptions options;
-  options.surface = SurfaceKind::cylinder;
-  EXPECT_EQ(fit(stream, options).status, FitStatus::converged);
-}
-
 // Nine tenths of a revolution are a turn; steps of a quarter are of one.
 TEST(FitMisreading, WhatIsReadOtherwiseGoesRound) {
   for (const double turns : {0.88, 0.92}) {
