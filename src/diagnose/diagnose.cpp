@@ -48,7 +48,19 @@ Diagnosis not_diagnosable(Diagnosis out) {
   return out;
 }
 
-/// The model about the ideal fit, without readings that do not count: a digit
+/// Whether the second order of the way between two fits, d²/2R, is a tenth of the u of a mean.
+bool bends_between(const FitResult& a, const FitResult& b) {
+  if (b.surface == SurfaceKind::plane || b.set_ups.empty()) return false;
+  double way = 0.0;
+  for (const double z : {b.position_min_mm, b.position_max_mm}) {
+    const auto from = a.axis.axis.at(z), to = b.axis.axis.at(z);
+    way = std::max(way, std::hypot(to[0] - from[0], to[1] - from[1]));
+  }
+  const double bend = 0.5 * way * way / b.set_ups.front().shape.radius_mm;
+  return bend > 0.1 * b.rms_mm / std::sqrt(static_cast<double>(b.points));
+}
+
+/// The model about the ideal fit, without readings that do not count if these bend it: a digit
 /// typed wrong moves the axis of 200 readings by 0.3 mm, whose second order looks like two lobes.
 /// @param about keeps that fit
 std::unique_ptr<IdealModel> about_readings_that_count(const ProbeStream& stream,
@@ -62,7 +74,7 @@ std::unique_ptr<IdealModel> about_readings_that_count(const ProbeStream& stream,
   bare.influences.clear();
   about = fit_cleaned(stream, bare, std::vector<double>(stream.size(), 0.0), out->mask, out->masked)
               .fit;
-  if (!is_diagnosable(about)) return out;
+  if (!is_diagnosable(about) || !bends_between(ideal, about)) return out;
   return std::make_unique<IdealModel>(stream, options, about, indicated);
 }
 
