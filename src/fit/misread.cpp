@@ -16,10 +16,9 @@ namespace trueaxis {
 namespace {
 
 constexpr double far_better = 1.0 / 3.0;  // of the RMS: nine in likelihood a reading
-constexpr double by_far_better = 0.1;
-constexpr double much_mm = 0.01;      // few lobes of a seat are larger
-constexpr double least_mm = 1e-6;     // what a stream's digits leave
-constexpr double most_feed_mm = 5.0;  // per revolution: nobody probes coarser
+constexpr double much_mm = 0.01;          // few lobes of a seat are larger
+constexpr double least_mm = 1e-6;         // what a stream's digits leave
+constexpr double most_feed_mm = 5.0;      // per revolution: nobody probes coarser
 constexpr double nearly_a_turn = 0.9 * two_pi;
 constexpr double restless = 1.2;  // of the travel over its range, Z against X
 
@@ -39,7 +38,6 @@ struct Misreading {
   bool Suspicion::*looks;
   bool needs_position;
   void (*mend)(ProbeStream&);
-  double better = far_better;  ///< RMS over that before
 };
 
 double travel_mm(const ProbeStream& stream) {
@@ -116,7 +114,7 @@ constexpr Misreading misreadings[] = {
      &Suspicion::leaves_much, false, unwrap_reading},
     // An oval part whose centre runs true would be one that runs out at half the angle.
     {"C runs at half the angle (or the part is oval and runs true)", "double it",
-     &Suspicion::leaves_much, false, scale_c<2.0>, by_far_better},
+     &Suspicion::leaves_much, false, scale_c<2.0>},
     {"C runs at half the angle and restarts every revolution", wrapped, &Suspicion::leaves_much,
      false,
      [](ProbeStream& s) {
@@ -180,10 +178,10 @@ std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, c
                       right.position_mm == stream.position_mm;
     if (same || !turns_around(right) || z_goes_to_and_fro(right)) continue;
     const FitResult again = refit(right, fit.surface);
-    if (again.status != FitStatus::converged || !(again.rms_mm < one.better * before_mm) ||
+    if (again.status != FitStatus::converged || !(again.rms_mm < far_better * before_mm) ||
         again.points < 2 * again.parameters.size() + 10)
       continue;
-    if (!(again.rms_mm < one.better * left_by_first_order_mm(stream))) continue;
+    if (!(again.rms_mm < far_better * left_by_first_order_mm(stream))) continue;
     return fmt::format("{}: {}. As written the residuals are {} RMS ({}), otherwise {} ({})",
                        one.what, one.remedy, um_text(before_mm), turns_text(stream),
                        um_text(again.rms_mm), turns_text(right));
