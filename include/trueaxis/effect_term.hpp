@@ -38,6 +38,9 @@ struct TermContext {
   bool face = false;                       ///< probed along Z
   /// Whether the surface is that of the readings, which a play has turned, and not of the part.
   bool as_read = false;
+  /// Whether X grew (1) or fell (−1) where a play was last taken up, as it is known of X with all
+  /// that it has; or empty.
+  std::span<const double> play_side{};
 
   std::size_t size() const { return c_rad.size(); }
 };

@@ -30,10 +30,10 @@ void check(const EffectTerm& term, const TermContext& at) {
 // The readings [from, from + count) of every column that is there.
 TermContext part_of(const TermContext& at, std::size_t from, std::size_t count) {
   TermContext part = at;
-  for (auto* column :
-       {&part.c_rad, &part.z_mm, &part.time_s, &part.speed_rad_per_s, &part.velocity_mm_per_s,
-        &part.x_mm, &part.sensed_mm, &part.dx_dc, &part.dx_dz, &part.d2x_dc2, &part.dx_dy,
-        &part.theta_rad, &part.theta_chuck_rad, &part.s_mm, &part.clamp_force_ratio}) {
+  for (auto* column : {&part.c_rad, &part.z_mm, &part.time_s, &part.speed_rad_per_s,
+                       &part.velocity_mm_per_s, &part.x_mm, &part.sensed_mm, &part.dx_dc,
+                       &part.dx_dz, &part.d2x_dc2, &part.dx_dy, &part.play_side, &part.theta_rad,
+                       &part.theta_chuck_rad, &part.s_mm, &part.clamp_force_ratio}) {
     if (!column->empty()) *column = column->subspan(from, count);
   }
   return part;

@@ -93,6 +93,7 @@ Swing swing_behind_play(double read_mm, double play_mm) {
 // change. X is nearly E cos ψ + p ψ, ψ running with the spindle and p what the feed adds: it grows
 // from ψ = −π − a to a and falls from a to π − a, sin a = p/E (Eq. 53a).
 double hysteresis(const TermContext& at, double play_mm, std::size_t i) {
+  if (!at.play_side.empty()) return -0.5 * at.play_side[i];
   const double turning = std::abs(at.speed_rad_per_s[i]);
   const double advancing = at.velocity_mm_per_s[i] * at.dx_dz[i];
   double swing = std::hypot(at.dx_dc[i], at.d2x_dc2[i]);

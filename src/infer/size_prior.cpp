@@ -132,6 +132,9 @@ double spread_of_size(double log_high_over_low) {
 }
 
 bool SizePrior::allows(const Eigen::VectorXd& size) const {
+  if (most_of_first > 0.0 && size.size() == 4 &&
+      size.tail(2).norm() > most_of_first * size.head(2).norm())
+    return false;
   return least.size() == 0 ||
          ((size.array() >= least.array()).all() && (size.array() <= most.array()).all());
 }

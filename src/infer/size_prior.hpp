@@ -13,6 +13,7 @@ struct SizePrior {
   Eigen::VectorXd median;  ///< of the scale of every column, mm, rad, s; 0: no size is known
   double spread = 1.0;     ///< standard deviation of the logarithm of the scale
   Eigen::VectorXd least{}, most{};  ///< what a column may be at all; empty: anything
+  double most_of_first = 0.0;       ///< what the last pair may be of the first one; 0: anything
   /// Of a size that a user states: standard deviation in medians of what it may be off, 0: nothing
   /// is stated; and the probability that the statement is wrong, and the size a typical one.
   double stated = 0.0, doubt = 1.0;

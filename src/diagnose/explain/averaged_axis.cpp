@@ -136,7 +136,7 @@ class Averaging {
 
   /// −2 ln of the odds of a term against none.
   double odds_of(std::size_t place, const Weighed& weighed, double often = present) const {
-    return weighed.criterion + choice_of(wide_.terms[place], weighed.mean) -
+    return weighed.criterion + choice_of(wide_.terms[place]) -
            2.0 * std::log(often / (1.0 - often));
   }
 

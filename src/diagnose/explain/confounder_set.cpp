@@ -72,8 +72,7 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
   if (out.members.empty()) {  // none of its own: it stays as it is
     const Score best = score(beside, own);
     const Weighed weighed = weigh(named, beside, own, joint.equations.count());
-    out.members.push_back(
-        {named, best.gain, best.rank, 0.0, weighed.criterion + choice_of(named, weighed.mean)});
+    out.members.push_back({named, best.gain, best.rank, 0.0, weighed.criterion + choice_of(named)});
   }
   const double criterion = out.members.front().criterion;
   for (std::size_t k = 0; k < rivals.size(); ++k) {
@@ -87,8 +86,7 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
       const Weighed as_lobes = weigh(lobes, beside, of_lobes, count);
       const Weighed as_bend = weigh(bend, beside, of_bend, count);
       const double over = counted_as_bend(
-          as_lobes.criterion + choice_of(lobes, as_lobes.mean) - as_bend.criterion -
-              choice_of(bend, as_bend.mean),
+          as_lobes.criterion + choice_of(lobes) - as_bend.criterion - choice_of(bend),
           lobes_over_bend(lobes, of_lobes, bend, of_bend, beside, count),
           apart_in_phase(of_lobes, of_bend, beside) / (joint.sigma_mm * joint.sigma_mm));
       c.criterion = bent ? criterion + over : criterion - over;

@@ -158,11 +158,12 @@ bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& cl
 
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore, int threads,
-                                std::vector<Clamping> before, double height_mm) {
+                                std::vector<Clamping> before, double height_mm,
+                                std::vector<Pass> passes) {
   LinearisationPoint point;
   point.height_mm = height_mm;
   point.before = std::move(before);
-  point.passes = find_passes(stream);
+  point.passes = passes.empty() ? find_passes(stream) : std::move(passes);
   point.c = SharedColumn::of(stream.c_rad);
   point.z = SharedColumn::of(stream.position_mm);
   point.time = SharedColumn::of(stream.time_s);
@@ -193,6 +194,8 @@ TermContext LinearisationPoint::context(const PointPart& part) const {
   at.tan_half_angle = tan_half_angle;
   at.bore = bore, at.rear = part.rear[0] != 0;
   at.as_read = as_read;
+  if (play_side.size() > 0)
+    at.play_side = std::span<const double>(play_side).subspan(part.begin, part.size());
   return at;
 }
 

@@ -78,6 +78,7 @@ constexpr int threads_beside(std::size_t readings, int threads) {
 /// and of many made anew, part by part, where it is asked for.
 struct LinearisationPoint : LinearisationFacts {
   SharedColumn c, z, time;
+  SharedColumn play_side;  ///< TermContext
   std::vector<Pass> passes;
   std::vector<double> velocity;  ///< of every pass, mm/s along Z
   double swing_mm = 0.0;  ///< of what is sensed, on the side where it is larger: from side to side
@@ -133,10 +134,11 @@ bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& cl
                       const std::vector<Clamping>& before = {}, double height_mm = 0.0);
 
 /// @param stream columns C, Z, t, set-up, which outlive the point; its readings are not used.
-/// @param before, height_mm LinearisationFacts
+/// @param before, height_mm LinearisationFacts @param passes empty: those of the stream
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore, int threads = 1,
-                                std::vector<Clamping> before = {}, double height_mm = 0.0);
+                                std::vector<Clamping> before = {}, double height_mm = 0.0,
+                                std::vector<Pass> passes = {});
 /// The same of a stream whose columns the point takes.
 LinearisationPoint linearise_at(ProbeStream&& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore, int threads = 1);

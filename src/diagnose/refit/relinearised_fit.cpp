@@ -15,7 +15,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr int most_rounds = 3;
+constexpr int most_rounds = 3, rounds_of_play = 6;
 
 /// Whether a term moves the spindle angle that a reading tells of. (A backlash moves Z, in which X
 /// is straight.)
@@ -61,8 +61,6 @@ bool is_height(const Hypothesis& h) {
 /// Whether a term moves the part or the probe, so that what is known of both is of its size.
 bool moves(const Hypothesis& h) { return moves_probe(h) || is_step_at_once(h); }
 
-bool plays(const Hypothesis& h) { return is_linearised_at_its_size(h) && !turns(h); }
-
 /// Whether readings stay on their side of the axis without the terms: those of an absurd model do
 /// not.
 bool leaves_a_part(const ProbeStream& stream, const std::vector<double>& taken_mm) {
@@ -107,7 +105,8 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
     : ideal_(ideal), terms_(model.terms) {
   if (!terms_.empty()) relinearise(model);
   solve_about(model.phi);
-  for (int round = 0; round < most_rounds && is_far(); ++round) {
+  const int rounds = std::ranges::any_of(terms_, plays) ? rounds_of_play : most_rounds;
+  for (int round = 0; round < rounds && is_far(); ++round) {
     std::vector<double> taken_mm = taken_off_mm();
     if (!leaves_a_part(ideal.stream, taken_mm)) break;
     place(coefficients_of_terms(), cleaned(std::move(taken_mm)).fit);
@@ -145,7 +144,9 @@ bool RelinearisedFit::is_far() const {
     for (; at < end; ++at) {
       const double u =
           joint_->sigma_mm * std::sqrt(joint_->solution.inverse(before + at, before + at));
-      if (moves(h) && placed_at_.size() > 0 && std::abs(found(at) - placed_at_(at)) > u)
+      const double far = plays(h) ? 0.2 * u : u;
+      if ((moves(h) || plays(h)) && placed_at_.size() > 0 &&
+          std::abs(found(at) - placed_at_(at)) > far)
         return true;
     }
   }
@@ -182,44 +183,33 @@ std::vector<double> RelinearisedFit::residual_mm() const {
 
 LinearisationPoint RelinearisedFit::point_at(const ProbeStream& stream, const Place& place) const {
   const LinearisationPoint& first = ideal_.point;
-  LinearisationPoint out = linearise_at(stream, place.after, first.base, first.bore,
-                                        ideal_.problem.threads, place.before, place.height_mm);
+  LinearisationPoint out =
+      linearise_at(stream, place.after, first.base, first.bore, ideal_.problem.threads,
+                   place.before, place.height_mm, first.passes);
+  out.play_side = play_side_;
   out.as_read = std::ranges::none_of(terms_, plays);
   return out;
 }
 
-/// About the extended surface, where the terms leave one. A play is where the eccentricity turns
-/// back, which it has moved itself: each round leaves a tenth of that.
+/// About the extended surface, where the terms leave one.
 void RelinearisedFit::relinearise(const Model& model) {
-  constexpr int rounds_of_play = 4;
   const Problem& first = ideal_.problem;
   FitOptions bare = ideal_.fit_options;  // a place is wanted, not its uncertainty
   bare.influences.clear();
-  std::optional<Problem> about = first;
-  for (int rounds = std::ranges::any_of(terms_, plays) ? rounds_of_play : 1; rounds > 0; --rounds) {
-    const Joint near(*about, model.phi, terms_, terms_.size());
-    const Eigen::VectorXd found =
-        near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(terms_)));
-    std::vector<double> taken_mm =
-        contribution(about->point, terms_, span_of(found), first.threads);
-    if (!leaves_a_part(ideal_.stream, taken_mm)) return;
-    const FitResult extended =
-        fit_cleaned(ideal_.stream, bare, std::move(taken_mm), first.mask, ideal_.masked).fit;
-    if (!is_diagnosable(extended)) return;
-    linearise_at_sizes(terms_, found, plays);
-    if (rounds == 1) return place(found, extended);
-    about.reset();  // it is about the point that goes
-    point_ = point_at(ideal_.stream, {.after = clampings_of(extended, ideal_.ball_mm)});
-    deviation_mm_ = deviation_from(ideal_.stream, *point_, first.threads);
-    about.emplace(first.about(*point_, deviation_mm_));
-  }
+  const Joint near(first, model.phi, terms_, terms_.size());
+  const Eigen::VectorXd found =
+      near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(terms_)));
+  std::vector<double> taken_mm = contribution(first.point, terms_, span_of(found), first.threads);
+  if (!leaves_a_part(ideal_.stream, taken_mm)) return;
+  place(found,
+        fit_cleaned(ideal_.stream, bare, std::move(taken_mm), first.mask, ideal_.masked).fit);
 }
 
 /// Takes the point to where part and probe are with these sizes.
 /// @param extended the surface then
 void RelinearisedFit::place(const Eigen::VectorXd& found, const FitResult& extended) {
-  const LinearisationPoint& about = point_ ? *point_ : ideal_.point;
   if (!is_diagnosable(extended)) return;
+  const LinearisationPoint& about = point_ ? *point_ : ideal_.point;
   Place place{.after = clampings_of(extended, ideal_.ball_mm)};
   if (!about.base.face) {
     place.before = places_before(about, terms_, found, place.after);
@@ -227,13 +217,17 @@ void RelinearisedFit::place(const Eigen::VectorXd& found, const FitResult& exten
   }
   if (!every_line_meets(ideal_.stream, place.after, place.before, place.height_mm))
     place = {.after = std::move(place.after)};
-  if (std::ranges::any_of(terms_, moves)) placed_at_ = found;
+  const bool behind = std::ranges::any_of(terms_, plays);
+  if (behind || std::ranges::any_of(terms_, moves)) placed_at_ = found;
+  linearise_at_sizes(terms_, found, is_linearised_at_its_size);
+  play_side_ = SharedColumn();
+  moved_.reset();
   if (std::ranges::any_of(terms_, turns)) {
-    linearise_at_sizes(terms_, found, is_linearised_at_its_size);
     turn(found, place);
   } else {
     point_ = point_at(ideal_.stream, place);
   }
+  if (behind) take_up_play(found, place);
   note_moved(found, place);
 }
 
@@ -276,6 +270,37 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const Place& place) {
       }
     }
   }
+}
+
+/// What a play does to X on its way over the part with all other terms.
+BehindPlay RelinearisedFit::behind_play_on(const LinearisationPoint& way,
+                                           const Eigen::VectorXd& found) const {
+  Eigen::VectorXd others = found;
+  double play_mm = 0.0;
+  Eigen::Index at = 0;
+  for (const Hypothesis& h : terms_) {
+    const auto own = static_cast<Eigen::Index>(h.columns());
+    if (plays(h)) play_mm = h.shape.*h.effect->refinement->parameter;
+    if (plays(h) || turns(h) || is_step_at_once(h) || is_height(h))
+      others.segment(at, own).setZero();
+    at += own;
+  }
+  return behind_play(way, terms_, span_of(others), play_mm);
+}
+
+/// Moves readings to where X took the play up.
+void RelinearisedFit::take_up_play(const Eigen::VectorXd& found, const Place& place) {
+  const std::vector<double> straight_mm = point_->column(&PointPart::x);
+  BehindPlay behind = behind_play_on(*point_, found);
+  ProbeStream moved = moved_ ? *moved_ : ideal_.stream;
+  moved.c_rad = std::move(behind.c_rad);
+  if (moved.has_position()) moved.position_mm = std::move(behind.z_mm);
+  play_side_ = SharedColumn(std::move(behind.side));
+  if (!moved_) turned_mm_.assign(straight_mm.size(), 0.0);
+  moved_ = std::move(moved);
+  point_ = point_at(*moved_, place);
+  add(turned_mm_, point_->column(&PointPart::x));
+  add(turned_mm_, straight_mm, -1.0);
 }
 
 /// Readings before a slip are about where the part was then, and all readings about the height of
@@ -345,6 +370,8 @@ std::unique_ptr<RelinearisedFit> with_shapes_refined(const IdealModel& ideal, Mo
 }  // namespace
 
 bool moves_probe(const Hypothesis& h) { return turns(h) || is_height(h); }
+
+bool plays(const Hypothesis& h) { return is_linearised_at_its_size(h) && !turns(h); }
 
 std::vector<std::unique_ptr<RelinearisedFit>> about_what_moves(const IdealModel& ideal,
                                                                const Model& model,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "diagnose/refit/behind_play.hpp"
 #include "diagnose/refit/criterion.hpp"
 #include "diagnose/refit/extended_fit.hpp"
 #include "diagnose/search/ideal_model.hpp"
@@ -56,11 +57,14 @@ class RelinearisedFit {
   std::vector<double> taken_off_mm() const;
   CleanedFit cleaned(std::vector<double> taken_off_mm) const;
   void turn(const Eigen::VectorXd& found, const Place& place);
+  BehindPlay behind_play_on(const LinearisationPoint& way, const Eigen::VectorXd& found) const;
+  void take_up_play(const Eigen::VectorXd& found, const Place& place);
   void note_moved(const Eigen::VectorXd& found, const Place& place);
 
   const IdealModel& ideal_;
   std::vector<Hypothesis> terms_;     ///< a lag at the time constant found
   std::optional<ProbeStream> moved_;  ///< the stream at the spindle angles that a delay makes true
+  SharedColumn play_side_;            ///< TermContext; or empty
   std::optional<LinearisationPoint> point_;  ///< none: the first
   std::vector<double> known_mm_;   ///< what is known of the terms, added to the readings; or empty
   std::vector<double> moved_mm_;   ///< known of steps and height, added to the readings; or empty
@@ -85,6 +89,9 @@ std::vector<std::unique_ptr<RelinearisedFit>> about_what_moves(const IdealModel&
 
 /// Whether a term is a delay, a lag or a height of the probe.
 bool moves_probe(const Hypothesis& h);
+
+/// Whether a term is a play.
+bool plays(const Hypothesis& h);
 
 /// What the second order says of a lag and a delay, which are one in the first: the model holds the
 /// better of the two.

@@ -2,6 +2,7 @@
 #include "diagnose/refit/searched.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "diagnose/refit/places_before.hpp"
@@ -23,29 +24,76 @@ bool is_slow_line(const Problem& problem, const Hypothesis& h) {
   return frequency_of(h) > slow.low && frequency_of(h) < slow.high;
 }
 
+/// Searches about a part, and keeps what is found if it is better.
+void search_about(const Problem& about, const IdealModel& ideal, Searched& best) {
+  auto search = std::make_unique<CoarseToFineSearch>(about);
+  const std::size_t found = search->model.terms.size();
+  std::optional<Timing> timing;
+  auto fit = relinearise(ideal, search->model, timing);
+  if (best.fit && !(fit->criterion() < best.fit->criterion())) return;
+  best.dropped = search->model.terms.size() < found;
+  best.search = std::move(search), best.fit = std::move(fit), best.timing = timing;
+  best.about = &about;
+}
+
 Searched searched_in(const Problem& problem, const IdealModel& ideal) {
   Searched out;
-  bool dropped = false;
-  const auto search_about = [&](const Problem& about) {
-    auto search = std::make_unique<CoarseToFineSearch>(about);
-    const std::size_t found = search->model.terms.size();
-    std::optional<Timing> timing;
-    auto fit = relinearise(ideal, search->model, timing);
-    if (out.fit && !(fit->criterion() < out.fit->criterion())) return;
-    dropped = search->model.terms.size() < found;
-    out.search = std::move(search), out.fit = std::move(fit), out.timing = timing;
-    out.about = &about;
-  };
-  search_about(problem);
-  // If the fit dropped terms, what was searched about was not near enough.
-  for (int round = 0; round < most_searches && (round == 0 || dropped); ++round) {
-    dropped = false;
+  search_about(problem, ideal, out);
+  for (int round = 0; round < most_searches && (round == 0 || out.dropped); ++round) {
+    out.dropped = false;
     for (auto& part : about_what_moves(ideal, out.search->model, *out.fit)) {
       out.moved.push_back(std::move(part));
-      search_about(out.moved.back()->problem());
+      search_about(out.moved.back()->problem(), ideal, out);
     }
   }
   return out;
+}
+
+/// Whether a term may be what a play leaves of the eccentricity and of other waves.
+bool may_be_of_play(const Hypothesis& h) {
+  const auto* wave = h.effect ? std::get_if<Harmonic>(&h.effect->term) : nullptr;
+  return !h.effect || (wave && std::max(wave->fixed_order, h.shape.order) >= 2.0);
+}
+
+/// Those terms of a fit, the largest first.
+std::vector<Hypothesis> waves_of(const Joint& joint) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t t = 0; t < joint.terms.size(); ++t) {
+    if (!may_be_of_play(joint.terms[t])) continue;
+    const std::vector<double> x_mm = joint.contribution_of(t);
+    order.emplace_back(std::inner_product(x_mm.begin(), x_mm.end(), x_mm.begin(), 0.0), t);
+  }
+  std::ranges::stable_sort(order, std::ranges::greater{}, &std::pair<double, std::size_t>::first);
+  std::vector<Hypothesis> out;
+  for (const auto& [size, t] : order) out.push_back(joint.terms[t]);
+  return out;
+}
+
+/// A play is about the way of X with all its waves, which no search about the ideal part knows.
+/// Waves are taken one by one while they are worth it: those found without a play are partly its.
+void try_play(const IdealModel& ideal, Searched& best) {
+  const auto is_play = [](const Effect* effect) { return plays(of_effect(*effect, {})); };
+  const auto play = std::ranges::find_if(ideal.problem.effects, is_play);
+  Model with = best.search->model;
+  if (with.terms.empty() || play == ideal.problem.effects.end() ||
+      is_condensed(ideal.problem.point))
+    return;
+  std::erase_if(with.terms, [](const Hypothesis& h) { return plays(h) || may_be_of_play(h); });
+  with.terms.push_back(of_effect(**play, {}));
+  const auto fitted = [&] {
+    with.p_values.assign(with.terms.size(), 0.0);
+    return std::make_unique<RelinearisedFit>(ideal, with);
+  };
+  auto fit = fitted();
+  for (Hypothesis& wave : waves_of(best.fit->joint())) {
+    with.terms.push_back(std::move(wave));
+    auto next = fitted();
+    if (!(next->criterion() < fit->criterion())) break;
+    fit = std::move(next);
+  }
+  if (fit->criterion() > best.fit->criterion()) return;
+  best.moved.push_back(std::move(fit));
+  search_about(best.moved.back()->problem(), ideal, best);
 }
 
 /// Takes the model of a search that leaves something out, if it is the better: more terms are not
@@ -83,6 +131,7 @@ Searched searched(const IdealModel& ideal) {
                   [](const Effect* effect) { return is_lag(of_effect(*effect, {})); });
     weigh_against(no_lag, ideal, best);
   }
+  try_play(ideal, best);
   without.fewest_cycles = cycles_of_a_line;
   const auto slow = [&](const Hypothesis& h) { return is_slow_line(without, h); };
   if (std::ranges::any_of(best.search->model.terms, slow)) weigh_against(without, ideal, best);

@@ -17,6 +17,7 @@ struct Searched {
   std::optional<Timing> timing;
   std::vector<std::unique_ptr<RelinearisedFit>> moved;  ///< parts that were searched about
   std::vector<double> at_rest_mm;  ///< of a model with slips: what one without any leaves
+  bool dropped = false;            ///< whether the fit dropped terms: about was not near enough
   const Problem* about = nullptr;  ///< what the search was about: one of these, or the ideal part
 };
 

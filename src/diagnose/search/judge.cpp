@@ -10,11 +10,6 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-// The second harmonic of j jaws that is not a surprise yet. A thin ring has ((j² − 1)/(4j² − 1))²
-// of the first, below 1/16 for any j. Chosen, not derived: five times that, for jaws that press
-// over a width and not all alike. Twice as much costs 32 ln² 2 = 15 in 2 ln L.
-constexpr double most_second = 0.3;
-constexpr double second_surprise = 32.0;
 // Odds that sizes alone give between lobes and a sensor that bends: with four to one the average of
 // both axes has either within two standard deviations.
 constexpr double most_odds = 4.0;
@@ -29,15 +24,8 @@ bool tells_whole_form(const Hypothesis& h, const Projection& beside, const Colum
 
 }  // namespace
 
-double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients) {
-  const double sum = 2.0 * std::log(std::max(hypothesis.tests, 1.0));
-  if (!hypothesis.effect || !has_two_orders(hypothesis.effect->term) || coefficients.size() != 4)
-    return sum;
-  const double first = std::hypot(coefficients(0), coefficients(1));
-  const double second = std::hypot(coefficients(2), coefficients(3));
-  if (second <= most_second * first) return sum;
-  return sum +
-         second_surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
+double choice_of(const Hypothesis& hypothesis) {
+  return 2.0 * std::log(std::max(hypothesis.tests, 1.0));
 }
 
 double criterion_as(const Hypothesis& rival, const Columns& its, const Hypothesis& named,
@@ -60,8 +48,7 @@ double criterion_as(const Hypothesis& rival, const Columns& its, const Hypothesi
 double lobes_over_bend(const Hypothesis& lobes, const Columns& its, const Hypothesis& bend,
                        const Columns& own, const Projection& beside, std::size_t count) {
   const Weighed weighed = weigh(bend, beside, own, count);
-  return criterion_as(lobes, its, bend, own, beside, count) - weighed.criterion -
-         choice_of(bend, weighed.mean);
+  return criterion_as(lobes, its, bend, own, beside, count) - weighed.criterion - choice_of(bend);
 }
 
 double apart_in_phase(const Columns& lobes, const Columns& bend, const Projection& beside) {
@@ -95,7 +82,7 @@ std::vector<Candidate> judge(const NormalEquations& equations, const Solution& t
     Candidate c{list[h], s.gain, s.rank, 0.0, 0.0, true, false, projection.rss, freedom};
     if (s.rank > 0) {
       const Weighed weighed = weigh(list[h], projection, places[h], equations.count());
-      c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
+      c.criterion = weighed.criterion + choice_of(list[h]);
       c.possible = weighed.possible && tells_whole_form(list[h], projection, places[h]);
       c.extraordinary = weighed.extraordinary;
     }

@@ -21,9 +21,8 @@ struct Candidate {
   double rss = 0.0, freedom = 0.0;  ///< residual without it
 };
 
-/// Twice the log of the choice among a hypothesis's kind (Chen and Chen 2008), and what a second
-/// harmonic costs that no jaws make (Eqs. 78, 80a).
-double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients);
+/// Twice the log of the choice among a hypothesis's kind (Chen and Chen 2008; Eq. 78).
+double choice_of(const Hypothesis& hypothesis);
 
 /// The criterion of a rival cause that might have been just the named form. Sizes tell which of
 /// both it is, not that the one formula has fewer parameters. The named columns have the sizes of

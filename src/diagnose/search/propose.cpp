@@ -126,6 +126,12 @@ std::vector<Candidate> one_of_each(const std::vector<Candidate>& list) {
   return out;
 }
 
+/// Whether a size that cannot be leaves the readings unexplained. Orders n and 2n that no jaws
+/// press in are two lobes.
+bool speaks_against_others(const Candidate& c) {
+  return !c.possible && !has_two_orders(c.hypothesis.effect->term);
+}
+
 /// Whether it is the same step with fewer of its parameters, or with others: what no size that can
 /// be makes exactly, such as two slips, one that can be makes nearly.
 bool is_other_form(const Candidate& refused, const Candidate& c) {
@@ -351,7 +357,7 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) co
   for_each_index(2, threads, [&](std::size_t k) {
     k == 0 ? refine_some(causes, out.causes) : refine_some(patterns, out.patterns);
   });
-  const auto refused = std::ranges::find(out.causes, false, &Candidate::possible);
+  const auto refused = std::ranges::find_if(out.causes, speaks_against_others);
   const auto explains_it = [&](const Candidate& c) {
     return c.possible && (c.gain >= refused->gain || is_other_form(*refused, c));
   };

@@ -156,7 +156,7 @@ class StepwiseSearch::Engine {
         [&](std::size_t i, const Projection& beside) {
           const Hypothesis& h = terms[i];
           Weighed weighed = weigh(h, beside, made.in.terms[i], made.in.count);
-          weighed.criterion += choice_of(h, weighed.mean);
+          weighed.criterion += choice_of(h);
           weighed.criterion += h.effect || h.largest_mm > 0.0 ? 0.0 : catalogue_first;
           return weighed;
         },
