@@ -53,6 +53,7 @@ struct CalibratedComponent {
   Estimate rms;      ///< of what the data show of it, over the axis' travel or a turn; mm or rad
   double plausible = 0.0;  ///< RMS that machines as this one have
   bool shown = false;      ///< some number of it is three u and more
+  bool beyond = false;  ///< less 2 u ten times what machines have (docs/reference/calibration.md)
 };
 
 /// What the measurement does not tell: at its largest plausible size it moves the readings by less
@@ -150,12 +151,17 @@ std::string implausible(const Calibration& found, const CalibrationOptions& opti
 /// length or a point of the machine file that is wrong by as much reads the same. Empty: none.
 std::string beyond_plausible(const Calibration& found, const CalibrationOptions& options);
 
+/// The component errors that are `beyond`, with what to check: the model has them in the place of
+/// something else. Empty: none.
+std::string components_beyond_plausible(const Calibration& found);
+
 /// The mistake in the columns that a measurement most likely has, and what to write: exchanged
-/// columns, wrong signs or radians as degrees, if the right ones leave half of the RMS at most.
-/// Also readings that scatter thirty times less than stated, or that leave more than machines do
-/// and thirty times more than stated. Empty: the data show no mistake. They show that all
-/// deviations are negated only if the axes were off the ball by more than its errors. @param
-/// left_by_all_mm RMS of the readings after all errors, those that a diagnosis found too
+/// columns, wrong signs, radians as degrees or a tool of another length, if the right ones leave
+/// half of the RMS at most and 20 µm. Also readings that scatter thirty times less than stated and
+/// than few degrees of freedom allow, or that leave more than machines do and thirty times more
+/// than stated. Empty: the data show no mistake. They show that all deviations are negated only if
+/// the axes were off the ball by more than its errors. @param left_by_all_mm RMS of the readings
+/// after all errors, those that a diagnosis found too
 std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
                            const CalibrationOptions& options, const Calibration& found,
                            double left_by_all_mm);

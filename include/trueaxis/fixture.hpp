@@ -38,9 +38,9 @@ struct LocatorTrouble {
   std::string message;
 };
 
-/// Coincident and collinear locators, D and E above each other, tips that were exchanged: empty
-/// where there is none. Locators count as apart from a thousandth of the fixture's size: a
-/// micrometre there is a millimetre at the far end of the part.
+/// Coincident and collinear locators, D and E above each other, tips that were exchanged or are a
+/// mirror image: empty where there is none. Locators count as apart from a thousandth of the
+/// fixture's size: a micrometre there is a millimetre at the far end of the part.
 std::vector<LocatorTrouble> locator_troubles(const Locators& locators);
 
 /// The nine errors of a part's datum surfaces (Fallah & Arezoo): plane k (0, 1, 2: YZ, ZX, XY)

@@ -60,8 +60,9 @@ int execute(const CalibrateArguments& options) {
     std::cerr << options.data.front() << ": not converged: " << found.message << '\n';
     return numerical;
   }
-  if (std::string beyond = beyond_plausible(found, calibration); !beyond.empty())
-    given.remarks.push_back(std::move(beyond));
+  for (std::string beyond :
+       {components_beyond_plausible(found), beyond_plausible(found, calibration)})
+    if (!beyond.empty()) given.remarks.push_back(std::move(beyond));
   results.write(outputs, "--output", [&] { return errors_toml(found.errors, &file.machine); });
   results.write(outputs, "--json",
                 [&] { return calibration_json(found, file.machine, given.remarks); });

@@ -52,7 +52,17 @@ std::vector<std::vector<AxisPositions>> solve(const MachineModel& model,
 /// What the axes of the machine with its errors cannot put right, the largest of all solutions.
 struct Left {
   double tip_mm = 0.0, direction_rad = 0.0;
+  bool at_pole = false;   ///< an axis would have to turn much to turn the tool little
+  bool at_limit = false;  ///< a rotary axis turns by all that the machine file allows
 };
+
+bool turns_by_all(const Machine& machine, const AxisPositions& from, const AxisPositions& to) {
+  return std::ranges::any_of(machine.axes, [&](const MachineAxis& axis) {
+    const std::size_t k = index_of(axis.name);
+    return is_rotary(axis.name) &&
+           std::abs(to[k] - from[k]) >= machine.max_rotary_change_rad * (1.0 - 1e-9);
+  });
+}
 
 /// Puts in the place of every solution of the nominal machine the axes at which the machine with
 /// its errors has the tool there.
@@ -69,6 +79,8 @@ Left correct(const MachineModel& model, const Setting& setting,
         refused += fmt::format("{}point {}: {}", refused.empty() ? "" : "\n", point + 1, why);
       left.tip_mm = std::max(left.tip_mm, to.tip_left_mm);
       left.direction_rad = std::max(left.direction_rad, to.direction_left_rad);
+      if (to.status == CompensationStatus::singular)
+        (turns_by_all(model.machine(), axes, to.axes) ? left.at_limit : left.at_pole) = true;
       axes = to.axes;
     }
   }
@@ -77,11 +89,22 @@ Left correct(const MachineModel& model, const Setting& setting,
 }
 
 /// A line if the axes cannot do all: with fewer than two rotary ones the direction.
-std::string left_text(const Left& left) {
+std::string left_text(const Left& left, const Machine& machine) {
   if (left.tip_mm < least_left_mm && left.direction_rad < least_left_rad) return "";
+  const double tip_um = left.tip_mm / mm_per_um, direction_mrad = 1e3 * left.direction_rad;
+  if (left.at_limit)
+    return fmt::format(
+        "note   {:.2g} mrad of the direction stay, as a rotary axis is turned by {:g}° at most: "
+        "raise [compensation] max_rotary_change_deg of the machine if it may turn more\n",
+        direction_mrad, machine.max_rotary_change_rad / rad_per_deg);
+  if (left.at_pole)
+    return fmt::format(
+        "note   {:.2g} mrad of the direction stay, as the tool is nearly along a rotary axis: this "
+        "is turned by twenty times at most what it turns the tool\n",
+        direction_mrad);
   return fmt::format(
       "note   the axes cannot correct {:.2g} µm at the tip and {:.2g} mrad of the direction\n",
-      left.tip_mm / mm_per_um, 1e3 * left.direction_rad);
+      tip_um, direction_mrad);
 }
 
 /// For each point its solutions, an axis in mm or deg by its letter.
@@ -107,7 +130,8 @@ int execute(const AxesArguments& options) {
   const auto targets = read_tool_targets_csv(options.targets);
   auto solutions = solve(model, targets, setting, options.all);
   std::cerr << notes_screen(given.remarks);
-  if (!options.machine.errors.empty()) std::cerr << left_text(correct(model, setting, solutions));
+  if (!options.machine.errors.empty())
+    std::cerr << left_text(correct(model, setting, solutions), file.machine);
   std::vector<std::string> read = options.machine.errors;
   read.insert(read.end(), {options.machine.machine, options.targets});
   return options.output.print_or_write(

@@ -9,6 +9,7 @@
 #include "cli/terminal.hpp"
 #include "fixture/files/setup_output.hpp"
 #include "format/outputs.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -26,7 +27,7 @@ struct SetupArguments {
   Results results;
   int decimals = 6;
   double coverage_factor = 2.0;
-  bool verbose = false, check = false;
+  bool large_errors = false, verbose = false, check = false;
 };
 
 int execute(const SetupArguments& options, const SetupCommand& which) {
@@ -43,6 +44,8 @@ int execute(const SetupArguments& options, const SetupCommand& which) {
               << "of this part?\n";
     return numerical;
   }
+  if (const std::string why = size_trouble(result); !options.large_errors && !why.empty())
+    throw InputError(options.path, why);
   results.write(outputs, "--output", [&] { return setup_errors_toml(result); });
   results.write(outputs, "--json", [&] { return setup_json(result); });
   outputs.commit();
@@ -65,6 +68,8 @@ void add_setup_command(CLI::App* command, const SetupCommand& which, int& exit_c
   add_option(*command, "--decimals", options->decimals,
              CLI::Range(least_frame_decimals, most_frame_decimals),
              "decimals of mm and degrees in the frames of controls (default 6)");
+  command->add_flag("--large-errors", options->large_errors,
+                    "accept a part or tips more than 10 mm or 5 degrees off");
   if (which.has_u) add_coverage_factor(*command, options->coverage_factor);
   add_force(*command, options->results.force);
   add_verbose(*command, options->verbose);

@@ -2,6 +2,8 @@
 #include "interchange/number_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 
@@ -12,16 +14,31 @@
 namespace trueaxis {
 namespace {
 
-enum class Kind { none, npy, npz, hdf5, matlab, x3p };
+enum class Kind { none, npy, npz, hdf5, matlab, matlab_4, x3p };
 
 constexpr std::string_view packed = "PK\x03\x04", hdf5_magic = "\x89HDF\r\n\x1a\n",
                            npy_magic = "\x93NUMPY", matlab_magic = "MATLAB ";
+
+/// Version 4 has no magic: five numbers of 4 bytes head a variable (type, rows, columns, imaginary,
+/// length of its name), then its name with a zero.
+bool is_matlab_4(std::string_view bytes) {
+  constexpr std::size_t head = 20, longest_name = 64;
+  if (bytes.size() < head) return false;
+  std::array<std::int32_t, 5> of;
+  std::memcpy(of.data(), bytes.data(), head);
+  const auto length = static_cast<std::size_t>(of[4]);
+  return of[0] >= 0 && of[0] < 60 && of[1] > 0 && of[2] > 0 && (of[3] == 0 || of[3] == 1) &&
+         of[4] > 1 && length <= longest_name && bytes.size() >= head + length &&
+         std::isalpha(static_cast<unsigned char>(bytes[head])) != 0 &&
+         bytes[head + length - 1] == '\0';
+}
 
 Kind kind_of(std::string_view bytes) {
   if (bytes.starts_with(npy_magic)) return Kind::npy;
   if (bytes.starts_with(hdf5_magic)) return Kind::hdf5;
   if (bytes.starts_with(matlab_magic) && bytes.substr(0, 128).find("MAT-file") != bytes.npos)
     return Kind::matlab;
+  if (is_matlab_4(bytes)) return Kind::matlab_4;
   if (!bytes.starts_with(packed)) return Kind::none;
   // The directory of an archive is at its end, where a broken one has none: the first member.
   const std::string_view head = bytes.substr(0, 200);
@@ -45,7 +62,7 @@ bool is_number_file(std::string_view bytes) { return kind_of(bytes) != Kind::non
 
 bool may_be_number_file(std::string_view head) {
   return head.starts_with(packed) || head.starts_with(npy_magic) || head.starts_with(hdf5_magic) ||
-         head.starts_with(matlab_magic);
+         head.starts_with(matlab_magic) || is_matlab_4(head);
 }
 
 std::size_t NumberBudget::take(const std::string& name, std::size_t rows, std::size_t columns) {
@@ -81,6 +98,8 @@ double binary_number(const char* at, char kind, std::size_t size) {
 NumberFile read_number_file(const std::string& path, const std::string& bytes) {
   const Kind kind = kind_of(bytes);
   expects(kind != Kind::none, "a file that is_number_file() knows");
+  if (kind == Kind::matlab_4)
+    throw InputError(path, "is a MATLAB file of version 4: save it anew, save(…, '-v7')");
   NumberBudget budget(path);
   NumberFile file = kind == Kind::npz      ? read_npz(path, bytes)
                     : kind == Kind::hdf5   ? read_hdf5(path, bytes)

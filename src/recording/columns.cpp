@@ -113,6 +113,16 @@ std::vector<TakenColumn> as_said(const Recording& recording, const ColumnsSaid& 
     if (!column) {
       std::vector<std::string> names;
       for (const RecordedColumn& one : recording.columns) names.push_back(one.name);
+      const std::string array = item.column.substr(0, item.column.find('[')) + " (";
+      const auto left = std::ranges::find_if(
+          recording.left_out, [&](const std::string& one) { return one.starts_with(array); });
+      if (left != recording.left_out.end()) {
+        unclear.push_back(
+            fmt::format("the array {} cannot be a column, as the longest has {} rows: write one "
+                        "number per reading",
+                        *left, recording.rows()));
+        continue;
+      }
       const std::string near = nearest_key(item.column, names);
       unclear.push_back(
           fmt::format("there is no column {}{} one of the header, or its number, 1 to {}",

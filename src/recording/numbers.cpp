@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -18,13 +19,14 @@ Recording recorded_numbers(const std::string& path, const std::string& bytes) {
   out.producer = file.kind;
   out.notes = file.notes;
   out.of_numbers = true;
-  std::string left;
   for (const NumberArray& array : file.arrays)
     if (!array.unusable.empty() || array.rows != longest)
-      add_to_list(left, fmt::format("{} ({})", array.name,
-                                    array.unusable.empty() ? fmt::format("{} rows", array.rows)
-                                                           : array.unusable));
-  if (!left.empty()) out.notes.push_back(fmt::format("not among the {} rows: {}", longest, left));
+      out.left_out.push_back(fmt::format(
+          "{} ({})", array.name,
+          array.unusable.empty() ? fmt::format("{} rows", array.rows) : array.unusable));
+  if (!out.left_out.empty())
+    out.notes.push_back(
+        fmt::format("not among the {} rows: {}", longest, fmt::join(out.left_out, ", ")));
   const auto own_name = [](const NumberArray& array) {
     return std::string_view(array.name).substr(array.name.find_last_of('/') + 1);
   };

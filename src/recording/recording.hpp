@@ -43,8 +43,10 @@ struct Recording {
   std::vector<double> numbers;          ///< the same of a binary file
   std::vector<std::size_t> lines;       ///< of each row, 1-based
   char decimal = '.';
-  bool of_numbers = false;            ///< a binary file: a row is its line, a unit must be given
-  bool in_thousands = false;          ///< every decimal mark may as well part thousands: 20.100
+  bool of_numbers = false;    ///< a binary file: a row is its line, a unit must be given
+  bool in_thousands = false;  ///< every decimal mark may as well part thousands: 20.100
+  /// Arrays of a binary file that cannot be columns, with why: "C (199 rows)".
+  std::vector<std::string> left_out;
   std::vector<std::string> notes;     ///< what was passed over or joined, in sentences
   std::vector<std::string> metadata;  ///< lines "# key: value" that are handed on as they are
   std::vector<CsvKeyBelow> keys;      ///< of stream.md among these

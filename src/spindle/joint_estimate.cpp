@@ -45,7 +45,8 @@ OrderReadings readings_of(const Layout& layout, std::span<const SynchronousPart>
         out.covariance(i, j) = part.covariance[static_cast<std::size_t>(n)](
             static_cast<Index>(one.sensor), static_cast<Index>(other.sensor));
     }
-    out.covariance(i, i) += rounding_mm * rounding_mm + 2.0 * remainder_mm * remainder_mm;
+    out.covariance(i, i) += rounding_mm * rounding_mm + 2.0 * remainder_mm * remainder_mm +
+                            part.folded_mm2[static_cast<Index>(one.sensor)];
   }
   return out;
 }
@@ -114,6 +115,8 @@ class OrderSolver {
     out.freedom = 2.0 * static_cast<double>(m - rank);
     // Both components of a circular complex number have half of its variance.
     out.chi_squared = 2.0 * (y - thin * (thin.adjoint() * y)).squaredNorm();
+    out.read_mm2 = read.z.squaredNorm() / static_cast<double>(m);
+    out.contradicted_mm2 = (read.z - matrix_ * out.unknowns).squaredNorm();
     const MatrixXcd covariance = gain * read.covariance * gain.adjoint();
     out.u_mm = (0.5 * covariance.diagonal().real()).cwiseMax(0.0).cwiseSqrt() *
                std::sqrt(widening(lines, m - rank));
@@ -334,11 +337,14 @@ void JointEstimate::solve() {
   orders_ = separate(layout_, parts_, influences_,
                      {order_min_, order_max_, options_.largest_condition, options_.coverage_factor,
                       remainder_mm_});
-  double chi_squared = 0.0, freedom = 0.0;
+  double chi_squared = 0.0, freedom = 0.0, contradicted = 0.0, read = 0.0;
   for (const OrderSolution& one : orders_) {
     chi_squared += one.chi_squared;
     freedom += one.freedom;
+    contradicted += one.contradicted_mm2;
+    read += 0.5 * one.freedom * one.read_mm2;
   }
+  contradicted_share_ = read > 0.0 ? std::sqrt(contradicted / read) : 0.0;
   disagreement_ = freedom > 0.0 ? chi_squared / freedom : std::numeric_limits<double>::quiet_NaN();
   widening_ = disagreement_ > contradiction ? std::sqrt(disagreement_) : 1.0;
 }

@@ -33,7 +33,8 @@ struct OrderSolution {
   Eigen::VectorXd u_mm;            ///< from noise, of either component
   /// What one u of every influence moves, unknowns by influences (Eq. 147).
   Eigen::MatrixXcd moved_mm;
-  double chi_squared = 0.0, freedom = 0.0;  ///< of what channels contradict (both components)
+  double chi_squared = 0.0, freedom = 0.0;        ///< of what channels contradict (both components)
+  double read_mm2 = 0.0, contradicted_mm2 = 0.0;  ///< |z|² of a channel, and left of all of them
 };
 
 /// Which orders are solved, and how.
@@ -78,8 +79,12 @@ class JointEstimate {
   /// χ²/ν of what sensors and set-ups contradict (NaN: none to spare), and what it does to u.
   double disagreement() const { return disagreement_; }
   double widening() const { return widening_; }
+  /// Whether they contradict each other by more than `refused_share` of what they read.
+  bool contradicts() const { return widening_ > 1.0 && contradicted_share_ > refused_share; }
+  double contradicted_share() const { return contradicted_share_; }
 
  private:
+  static constexpr double refused_share = 0.3;  // gains and angles that are off a little do less
   void set_influences();
   void fit();
   void leave_outliers_out();
@@ -101,7 +106,7 @@ class JointEstimate {
   std::vector<Eigen::MatrixXcd> linear_;  ///< harmonics of the parts as they were read
   std::vector<OrderSolution> orders_;
   double disagreement_ = std::numeric_limits<double>::quiet_NaN();
-  double widening_ = 1.0, remainder_mm_ = 0.0;
+  double widening_ = 1.0, remainder_mm_ = 0.0, contradicted_share_ = 0.0;
 };
 
 }  // namespace trueaxis

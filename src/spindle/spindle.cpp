@@ -22,6 +22,7 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 
 constexpr double noted_rad = 2.0 * rad_per_deg, refused_rad = 10.0 * rad_per_deg;
+constexpr double largest_shown_rad = 90.0 * rad_per_deg;
 constexpr double noted_gain = 0.03;
 constexpr double times_motion = 3.0;  // the spindle's own order 1 is no larger than its others.
 
@@ -41,9 +42,13 @@ void check_sensors_agree(std::span<const RunReadings> runs, std::span<const Sync
     const double blurred = times_motion * others / std::abs(first);
     if (run.angles_rad.size() > 1 && blurred > noted_rad)
       notes.push_back(
-          fmt::format("{}: the eccentricity shows the sensors' angles only to {:.0f}° because of "
-                      "the other orders: a smaller error remains undetected",
-                      run.stream, std::max(2.0 * blurred, refused_rad) / rad_per_deg));
+          2.0 * blurred > largest_shown_rad
+              ? run.stream +
+                    ": the eccentricity does not show the sensors' angles because of the "
+                    "other orders: an error of them remains undetected"
+              : fmt::format("{}: the eccentricity shows the sensors' angles only to {:.0f}° "
+                            "because of the other orders: a smaller error remains undetected",
+                            run.stream, std::max(2.0 * blurred, refused_rad) / rad_per_deg));
     for (std::size_t s = 1; s < run.angles_rad.size(); ++s) {
       const std::complex<double> seen = z(static_cast<Eigen::Index>(s), 1) / first;
       const double stated_rad = run.angles_rad[s] - run.angles_rad[0];
@@ -179,10 +184,56 @@ void split_axial(const UncertainSeries& series, ErrorMotion& motion) {
   motion.residual = range_estimate(rest);
 }
 
+/// The amplitude of the highest orders fitted, RMS, of the sensor that reads most of them.
+struct Folded {
+  double rms_mm = 0.0;
+  int first = 0, last = 0;
+};
+Folded folded_of(const JointEstimate& all) {
+  Folded out;
+  for (std::size_t r = 0; r < all.parts().size(); ++r) {
+    const double rms_mm = std::sqrt(all.parts()[r].folded_mm2.maxCoeff());
+    const auto [first, last] = all.fits()[r].end_orders();
+    if (rms_mm > out.rms_mm) out = {rms_mm, first, last};
+  }
+  return out;
+}
+
+/// @throws InputError where set-ups contradict each other by much of what they read
+void expect_agreement(const JointEstimate& all, std::vector<RunReadings> runs,
+                      const SpindleOptions& options) {
+  if (!all.contradicts()) return;
+  for (RunReadings& run : runs) run.set_up.reindex_rad = -run.set_up.reindex_rad;
+  const bool negated = !JointEstimate(std::move(runs), options).contradicts();
+  throw InputError(
+      all.runs().front().stream,
+      fmt::format("sensors and set-ups contradict each other by {:.0f} % of what they read "
+                  "(χ²/ν = {:.0f}): {}",
+                  100.0 * all.contradicted_share(), all.disagreement(),
+                  negated ? "they agree if every re-indexing angle has the other sign: turn the "
+                            "signs of # setup.N.reindex"
+                          : "check the re-indexing angles and the sensors' angles and sides, their "
+                            "gains, and whether it is the same part"));
+}
+
+/// U of the synchronous value if every sensor's angle has an error of 1°.
+double U_per_degree(std::vector<RunReadings> runs, SpindleOptions options) {
+  options.u_angle_rad = rad_per_deg;
+  const JointEstimate all(std::move(runs), options);
+  return options.coverage_factor * range_estimate(all.series(all.layout().along())).u;
+}
+
 void add_notes(const JointEstimate& all, const SpindleOptions& options,
                std::vector<std::string>& notes) {
   const std::string which = all.axial() ? "axial: " : "";
-  if (all.order_max() < options.order_max)
+  const Folded folded = folded_of(all);
+  if (folded.rms_mm > 0.0)
+    notes.push_back(fmt::format(
+        "{}the highest orders of a revolution that the readings support, {} to {}, still have "
+        "{:.2g} µm: as much may fold into every order from higher ones, and U includes it; take "
+        "more readings per revolution",
+        which, folded.first, folded.last, folded.rms_mm / mm_per_um));
+  else if (all.order_max() < options.order_max)
     notes.push_back(fmt::format(
         "{}the readings of a revolution support orders up to {}: higher orders are not computed",
         which, all.order_max()));
@@ -203,8 +254,6 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
                           "fundamental motion: to measure the latter, read at X = 0"
                         : "axial: off the axis one sensor in one set-up reads the face's form "
                           "together with the motion: read at X = 0 or re-index the part");
-  if (options.u_angle_rad == 0.0 && !all.axial() && all.layout().has_across())
-    notes.push_back("the sensors' angles are treated as exact: state their u (--u-angle-deg)");
   if (all.widening() > 1.0)
     notes.push_back(fmt::format(
         "{}sensors and set-ups contradict each other, χ²/ν = {:.1f}: TrueAxis widens every u by "
@@ -220,8 +269,9 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
 /// Radial runs, or axial ones, in one estimate. @throws InputError for a layout without a solution.
 ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& options,
                          std::vector<std::string>& notes) {
-  const JointEstimate all(std::move(runs), options);
+  const JointEstimate all(runs, options);
   if (!all.axial()) check_sensors_agree(all.runs(), all.parts(), notes);
+  expect_agreement(all, runs, options);
   const Layout& layout = all.layout();
   ErrorMotion out;
   out.sensitive_rad = all.sensitive_rad();
@@ -237,6 +287,11 @@ ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& op
   out.disagreement = all.disagreement();
   out.polar = polar_of(all, motion, form);
   add_notes(all, options, notes);
+  if (options.u_angle_rad == 0.0 && !all.axial() && layout.has_across())
+    notes.push_back(fmt::format(
+        "the sensors' angles are treated as exact; with a standard uncertainty of 1° for each, U "
+        "of the synchronous value would be {:.2g} µm: state theirs (--u-angle-deg)",
+        U_per_degree(std::move(runs), options) / mm_per_um));
   return out;
 }
 

@@ -17,6 +17,8 @@ using Eigen::Index;
 constexpr int most_orders = 360;          // beyond it what repeats counts as asynchronous
 constexpr std::size_t lines_wanted = 32;  // of a covariance: u to 9 %
 constexpr double standing_out = 16.0;     // of the median power: noise does so in 1 of 65 000
+constexpr double trace = 0.01;            // RMS over that of all orders: what the second order does
+constexpr double least_excess = 4.0;      // σ of a mean power above that of noise
 constexpr double least_away = 3.0;        // nearer lines may be the order's own skirts
 
 /// Legendre P1 … P3 over the order of the readings, −1 … 1.
@@ -74,11 +76,11 @@ SynchronousFit::SynchronousFit(std::span<const double> c_rad, int wanted)
   turns_ = (high - low) / two_pi * readings / (readings - 1.0);
   const int nyquist = static_cast<int>(std::floor(0.5 * (readings / turns_ - 1.0) + 1e-3));
   // Turns that do not repeat the same angles carry more orders than one turn does.
-  const bool interleaved =
+  interleaved_ =
       nyquist < wanted && readings > 3.0 * (2.0 * wanted + 1.0 + drift) && prepare(wanted);
   int orders = std::min(nyquist, std::max(most_orders, wanted));
-  while (!interleaved && orders > 0 && !prepare(orders)) orders = 3 * orders / 4;
-  carried_ = interleaved ? wanted_ : std::clamp(orders, 0, wanted_);
+  while (!interleaved_ && orders > 0 && !prepare(orders)) orders = 3 * orders / 4;
+  carried_ = interleaved_ ? wanted_ : std::clamp(orders, 0, wanted_);
 }
 
 /// The normal matrix of 1, drift, cos nC, sin nC from sums of cos kC and sin kC, k ≤ 2N. False
@@ -198,6 +200,19 @@ void SynchronousFit::add_covariance(SynchronousPart& part) const {
   }
 }
 
+/// Orders above half the readings of a turn read like lower ones. They are taken as large as the
+/// highest fitted orders are, as far as these are more than noise and than a trace of all orders.
+double SynchronousFit::folded_mm2(const Eigen::VectorXd& solution, double noise_mm2) const {
+  if (interleaved_) return 0.0;
+  const auto [first, last] = end_orders();
+  const double count = last - first + 1;
+  const double mean = solution.tail(2 * (last - first + 1)).squaredNorm() / count;
+  const double all = solution.tail(2 * (last - 1)).squaredNorm();
+  const double most_noise =
+      noise_mm2 * (1.0 + least_excess * std::sqrt(1.0 / count + 1.0 / lines_wanted));
+  return mean > std::max(most_noise, trace * trace * all) ? mean - noise_mm2 : 0.0;
+}
+
 SynchronousPart SynchronousFit::operator()(std::span<const std::vector<double>> columns) const {
   const FourierSums fourier(c_rad_, 0.0, 1.0, static_cast<std::size_t>(fitted_) + 1);
   const std::vector<std::span<const double>> views(columns.begin(), columns.end());
@@ -206,10 +221,11 @@ SynchronousPart SynchronousFit::operator()(std::span<const std::vector<double>> 
   const auto sensors = static_cast<Index>(columns.size());
   part.harmonics = Eigen::MatrixXcd::Zero(sensors, carried_ + 1);
   part.asynchronous_mm.resize(static_cast<Index>(c_rad_.size()), sensors);
+  std::vector<Eigen::VectorXd> solutions;
   for (Index s = 0; s < sensors; ++s) {
     const auto& column = columns[static_cast<std::size_t>(s)];
-    const Eigen::VectorXd solution =
-        normal_.solve(right_side(column, sums[static_cast<std::size_t>(s)]));
+    solutions.push_back(normal_.solve(right_side(column, sums[static_cast<std::size_t>(s)])));
+    const Eigen::VectorXd& solution = solutions.back();
     part.harmonics(s, 0) = solution[0];
     for (int n = 1; n <= carried_; ++n)
       part.harmonics(s, n) = Complex(solution[drift + 2 * n - 1], -solution[drift + 2 * n]);
@@ -218,6 +234,10 @@ SynchronousPart SynchronousFit::operator()(std::span<const std::vector<double>> 
         Eigen::Map<const Eigen::VectorXd>(left.data(), static_cast<Index>(left.size()));
   }
   add_covariance(part);
+  part.folded_mm2.resize(sensors);
+  for (Index s = 0; s < sensors; ++s)
+    part.folded_mm2[s] =
+        folded_mm2(solutions[static_cast<std::size_t>(s)], part.covariance.back()(s, s).real());
   return part;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <complex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "math/linear_algebra.hpp"
@@ -17,7 +18,9 @@ struct SynchronousPart {
   Eigen::MatrixXcd harmonics;
   /// E[z zᴴ] of order n, sensors by sensors (Eq. 143): from the lines next to it.
   std::vector<Eigen::MatrixXcd> covariance;
-  double freedom = 0.0;             ///< complex lines that a covariance is the mean of
+  double freedom = 0.0;  ///< complex lines that a covariance is the mean of
+  /// E|z|² of higher orders that may fold into every order: that of the highest fitted.
+  Eigen::VectorXd folded_mm2;
   Eigen::MatrixXd asynchronous_mm;  ///< readings by sensors: less what repeats and the drift
 };
 
@@ -31,6 +34,10 @@ class SynchronousFit {
   /// Highest order that these angles carry: `wanted`, or fewer.
   int order_max() const { return carried_; }
   double turns() const { return turns_; }
+  /// The first and the last of the highest eighth of the fitted orders, three at least.
+  std::pair<int, int> end_orders() const {
+    return {std::max(2, fitted_ + 1 - std::max(fitted_ / 8, 3)), fitted_};
+  }
 
   /// @param columns one for every sensor.
   SynchronousPart operator()(std::span<const std::vector<double>> columns) const;
@@ -43,11 +50,13 @@ class SynchronousFit {
   std::vector<double> residuals(const std::vector<double>& column,
                                 const Eigen::VectorXd& solution) const;
   void add_covariance(SynchronousPart& part) const;
+  double folded_mm2(const Eigen::VectorXd& solution, double noise_mm2) const;
 
   std::vector<double> c_rad_;
   std::vector<std::vector<double>> drift_;  ///< columns P1 … P3 over the order of the readings
   double turns_ = 0.0;
   int wanted_, fitted_ = 0, carried_ = 0;
+  bool interleaved_ = false;  ///< turns do not repeat their angles: nothing folds
   linear::Cholesky normal_;
   std::vector<double> inflation_;  ///< variance of order n over that of even spacing
 };

@@ -155,6 +155,11 @@ class Bands {
     low_[at] = std::min(low_[at], value);
     high_[at] = std::max(high_[at], value);
   }
+  /// At an angle, 0 included: the motion that repeats is within the total.
+  double low(double c_rad) const { return std::min(0.0, low_[place_in_turn(c_rad, low_.size())]); }
+  double high(double c_rad) const {
+    return std::max(0.0, high_[place_in_turn(c_rad, high_.size())]);
+  }
   double widest() const {
     double out = 0.0;
     for (std::size_t i = 0; i < low_.size(); ++i) out = std::max(out, high_[i] - low_[i]);
@@ -165,23 +170,21 @@ class Bands {
   std::vector<double> low_, high_;
 };
 
-double band_of(std::span<const AsynchronousMotion> runs,
+Bands bands_of(std::span<const AsynchronousMotion> runs,
                const std::vector<std::vector<double>>& motions, std::size_t places) {
   Bands bands(places);
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (std::size_t i = 0; i < motions[r].size(); ++i) bands.add(runs[r].c_rad[i], motions[r][i]);
-  return bands.widest();
+  return bands;
 }
 
-double total_of(const std::vector<double>& curve, std::span<const AsynchronousMotion> runs,
-                const std::vector<std::vector<double>>& motions) {
+/// The curve also between the places where it is read, each with the band of the nearest.
+double total_of(const std::vector<double>& curve, const Bands& bands) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    for (std::size_t i = 0; i < motions[r].size(); ++i) {
-      const double value = curve[place_in_turn(runs[r].c_rad[i], curve.size())] + motions[r][i];
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double c_rad = two_pi * static_cast<double>(i) / static_cast<double>(curve.size());
+    low = std::min(low, curve[i] + bands.low(c_rad));
+    high = std::max(high, curve[i] + bands.high(c_rad));
   }
   return high - low;
 }
@@ -216,16 +219,17 @@ std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& seri
     surrogates.emplace_back(run.motion_mm);
     readings += run.motion_mm.size();
   }
-  const double band = band_of(runs, motions, places);
-  const double total = total_of(source.best(), runs, motions);
+  const Bands found = bands_of(runs, motions, places);
+  const double band = found.widest(), total = total_of(source.best(), found);
   boost::random::mt19937_64 engine(seed);
   std::vector<double> bands, totals;
   const std::size_t draws =
       std::clamp(most_surrogate_readings / readings, least_surrogates, most_surrogates);
   for (std::size_t k = 0; k < draws; ++k) {
     for (std::size_t r = 0; r < runs.size(); ++r) motions[r] = surrogates[r].draw(engine);
-    bands.push_back(band_of(runs, motions, places));
-    totals.push_back(total_of(source.draw(), runs, motions));
+    const Bands drawn = bands_of(runs, motions, places);
+    bands.push_back(drawn.widest());
+    totals.push_back(total_of(source.draw(), drawn));
   }
   return {{band, deviation_of(bands), "mm", ""}, {total, deviation_of(totals), "mm", ""}};
 }

@@ -2,6 +2,7 @@
 // `trueaxis setup locators` and `trueaxis setup datums` as a user meets them, and their errors in
 // the machine.
 #include <cmath>
+#include <functional>
 
 #include "support/chain_matrices.hpp"
 #include "support/command_fixture.hpp"
@@ -219,6 +220,71 @@ TEST_F(FixtureCommand, PointsSayTheDatums) {
   EXPECT_EQ(json.at("inputs").size(), 4U);
   EXPECT_TRUE(json.at("setup").at("X0W").at("u").is_number());
   expect_input_error("setup datums d.toml --json xy.csv", "xy.csv: is an input of this command");
+}
+
+/// Six locators of a part of 105 x 68 mm that lies as `placed` says.
+std::string locators_file(const std::function<Vector3(Vector3)>& placed) {
+  constexpr Vector3 ideal[] = {{15, 12, 0}, {105, 12, 0}, {60, 68, 0},
+                               {20, 0, 12}, {100, 0, 12}, {0, 40, 12}};
+  std::string text;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Vector3 &a = ideal[i], b = placed(a);
+    const auto list = [](const Vector3& p) {
+      return "[" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " +
+             std::to_string(p[2]) + "]";
+    };
+    text += std::string("[[locator]]\nname = \"") + "ABCDEF"[i] + "\"\nideal_mm = " + list(a) +
+            "\nmeasured_mm = " + list(b) + "\nu_um = 1\n";
+  }
+  return text;
+}
+
+// Shifted by (0.2, -0.1, 0.15) mm and turned by 2 mrad about Z, then written wrongly.
+TEST_F(FixtureCommand, LocatorsWrittenWronglyAreRefused) {
+  const auto written = [](const std::function<void(Vector3&)>& wrongly) {
+    return locators_file([&](Vector3 p) {
+      Vector3 q{p[0] - 2e-3 * p[1] + 0.2, p[1] + 2e-3 * p[0] - 0.1, p[2] + 0.15};
+      wrongly(q);
+      return q;
+    });
+  };
+  const auto refused = [&](const std::function<void(Vector3&)>& wrongly, const char* words) {
+    file("l.toml", written(wrongly));
+    const CommandStreams done = command("setup locators l.toml -o e.toml");
+    EXPECT_EQ(done.exit_code, 3) << words;
+    EXPECT_TRUE(contains(done.err, words)) << words << '\n' << done.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "e.toml"));
+  };
+  refused([](Vector3& p) { std::swap(p[0], p[1]); }, "X and Y of the measured tips are exchanged");
+  for (const int k : {0, 1, 2})
+    refused([k](Vector3& p) { p[static_cast<std::size_t>(k)] *= -1.0; },
+            (std::string(1, "XYZ"[k]) + " of the measured tips has the wrong sign").c_str());
+  refused([](Vector3& p) { p[0] += 100.0, p[1] += 50.0; }, "X0W = 100.2 mm");
+  refused([](Vector3& p) { p = {-p[0], -p[1], p[2]}; }, "a tip was measured 2");
+  file("l.toml", written([](Vector3& p) { p[0] += 100.0; }));
+  EXPECT_EQ(command("setup locators l.toml -o e.toml --large-errors").exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder_ / "e.toml"), "large_errors = true"));
+}
+
+TEST_F(FixtureCommand, DatumsFarOffOrExchangedAreRefused) {
+  file("far.toml", "[xy]\nEzz_mm = 110\n");
+  const CommandStreams far = command("setup datums far.toml");
+  EXPECT_EQ(far.exit_code, 3);
+  EXPECT_TRUE(contains(far.err, "Z0W = -110 mm")) << far.err;
+  std::string xy = "x[mm],y[mm],z[mm]\n", zx = xy, yz = xy;
+  for (const char* const a : {"10", "50", "90"})
+    for (const char* const b : {"5", "20"}) {
+      xy += std::string(a) + "," + b + ",0.001\n";
+      zx += std::string(a) + ",0.002," + b + "\n";
+      yz += std::string("0.003,") + a + "," + b + "\n";
+    }
+  file("xy.csv", xy), file("zx.csv", zx), file("yz.csv", yz);
+  file("d.toml",
+       "[xy]\npoints = \"xy.csv\"\n[zx]\npoints = \"yz.csv\"\n[yz]\npoints = \"zx.csv\"\n");
+  const CommandStreams done = command("setup datums d.toml");
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_TRUE(contains(done.err, "the points lie along the plane YZ, not ZX")) << done.err;
+  EXPECT_TRUE(contains(done.err, "files of YZ and ZX, or two columns, are exchanged"));
 }
 
 }  // namespace

@@ -119,6 +119,40 @@ TEST_F(MachineCommand, AxesOfAMachineWithErrorsPutItsToolAtThePoints) {
   EXPECT_GT(nominal_off_mm, 5e-3);
 }
 
+// A head of C and A, the tool nearly along C: B0S tilts it by 1 mrad across its lean, which C turns
+// back only by 1 mrad over the lean. The note names what stops it.
+TEST_F(MachineCommand, NearAPoleTheLimitIsNamed) {
+  const auto machine_file = [&](const char* limit) {
+    file("head.toml",
+         std::string("schema = \"trueaxis.machine/1\"\nname = \"head\"\n"
+                     "chain = \"w X' b Y Z C A t\"\n"
+                     "[axes.X]\ndirection = [1.0, 0.0, 0.0]\n"
+                     "[axes.Y]\ndirection = [0.0, 1.0, 0.0]\n"
+                     "[axes.Z]\ndirection = [0.0, 0.0, 1.0]\n"
+                     "[axes.C]\npoint_mm = [0.0, 0.0, 0.0]\n"
+                     "direction = [0.0, 0.0, 1.0]\n"
+                     "[axes.A]\npoint_mm = [0.0, 0.0, 0.0]\n"
+                     "direction = [1.0, 0.0, 0.0]\n"
+                     "[tool]\ngauge_point_mm = [0.0, 0.0, 0.0]\nlength_mm = 100.0\n"
+                     "[program]\nmode = \"axes\"\n[compensation]\nmax_rotary_change_deg = ") +
+             limit + "\n");
+  };
+  file("e.toml",
+       "schema = \"trueaxis.errors/1\"\nsign = \"tool_minus_workpiece\"\n"
+       "[[error]]\nname = \"B0S\"\nvalue_mrad = 1.0\n");
+  const auto said = [&](const char* limit, double lean) {
+    machine_file(limit);
+    file("to.csv",
+         fmt::format("x,y,z,i,j,k\n0,0,0,0,{:.9f},{:.9f}\n", -std::sin(lean), std::cos(lean)));
+    const CommandStreams done =
+        command("machine inverse --machine head.toml to.csv --errors e.toml");
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return done.err;
+  };
+  EXPECT_TRUE(contains(said("0.5", 0.1), "max_rotary_change_deg")) << said("0.5", 0.1);
+  EXPECT_TRUE(contains(said("90", 0.003), "twenty times")) << said("90", 0.003);
+}
+
 TEST_F(MachineCommand, ErrorsAtAPosition) {
   ASSERT_EQ(command("machine errors --machine " + machine + errors +
                     " --at \"X=100,Y=-50,Z=30,A=-35,C=70\" --json e.json")

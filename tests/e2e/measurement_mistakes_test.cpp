@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A measurement of a machine whose columns are written wrongly, each in one way.
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <random>
 #include <sstream>
 
@@ -101,6 +103,64 @@ TEST_F(MeasurementMistakes, ToolLengthOfAnother) {
     at["tool_length"] = "60";
   });
   expect_refused({"Z0A is 59.9", "no machine is so far from its model", "tool length"});
+}
+
+// Every second row with a tool 50 mm shorter and Z as much lower: the tip is the same.
+TEST_F(MeasurementMistakes, OneOfTwoToolLengths) {
+  const auto second_tool = [](const char* stated) {
+    return [stated, row = 0](Fields& at) mutable {
+      if (++row % 2 == 1) return;
+      at["tool_length"] = stated;
+      at["Z"] = std::to_string(std::stod(at["Z"]) - 50.0);
+    };
+  };
+  rows(second_tool("70"));
+  EXPECT_EQ(command("machine calibrate --machine " + machine_ + " wrong.csv -o two.toml").exit_code,
+            0);
+  rows(second_tool("70.02"));
+  expect_refused({"if the tool of 120 mm is 19.9 µm longer against the others", "measure"});
+  rows(second_tool("69.8"));
+  expect_refused({"if the tool of 120 mm is 200 µm shorter against the others"});
+}
+
+// A scale of 0.5 mm per m fits as an error that no machine has, 144 µm over 500 mm.
+TEST_F(MeasurementMistakes, AComponentErrorBeyondAnyMachineIsNotDone) {
+  rows([](Fields& at) {
+    at["dX"] = std::to_string(std::stod(at["dX"]) + 0.5 * std::stod(at["X"]));
+  });
+  const CommandStreams done =
+      command("machine calibrate --machine " + machine_ + " wrong.csv -o wrong.toml");
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_TRUE(contains(done.out, "UNEXPLAINED")) << done.out;
+  EXPECT_TRUE(contains(done.out, "check tool lengths, scales")) << done.out;
+}
+
+// Residuals of few degrees of freedom may be thirty times less than the noise: 2 % of one are.
+TEST_F(MeasurementMistakes, FewHonestPositions) {
+  const std::string text = read_text(folder_ / "ball.csv");
+  const std::size_t header = text.find("setup,");
+  std::vector<std::string> all;
+  std::istringstream lines(text.substr(text.find('\n', header) + 1));
+  for (std::string line; std::getline(lines, line);) all.push_back(line + '\n');
+  std::mt19937 random(1);
+  int found = 0;
+  for (int draw = 0; draw < 40; ++draw) {
+    std::vector<std::string> some;
+    std::ranges::sample(all, std::back_inserter(some), 5, random);
+    file("few.csv", text.substr(0, text.find('\n', header) + 1) + some[0] + some[1] + some[2] +
+                        some[3] + some[4]);
+    const CommandStreams done =
+        command("machine calibrate --machine " + machine_ + " few.csv -o few.toml --force");
+    EXPECT_FALSE(contains(done.err, "scatter")) << draw << done.err;
+    found += done.exit_code == 0 ? 1 : 0;
+  }
+  EXPECT_GT(found, 10);  // else there are more unknowns than numbers
+}
+
+// The zero of A off by 1°: no column is written wrongly.
+TEST_F(MeasurementMistakes, NoHintThatExplainsNothing) {
+  rows([](Fields& at) { at["A"] = std::to_string(std::stod(at["A"]) + 1.0); });
+  expect_refused({"A0C is 0.99", "no usual mistake", "zeros of the axes"});
 }
 
 TEST_F(MeasurementMistakes, UnitsOfTheDeviations) {

@@ -244,6 +244,25 @@ TEST(NumberFiles, AMatlabFileIsReadFromTheBytesThatWereHashed) {
   }
 }
 
+TEST(NumberFiles, AMatlabFileOfVersion4IsNamed) {
+  const std::string head("\0\0\0\0\3\0\0\0\1\0\0\0\0\0\0\0\2\0\0\0X\0", 22);
+  const std::string bytes = head + std::string(24, '\0');
+  ASSERT_TRUE(is_number_file(bytes));
+  EXPECT_TRUE(may_be_number_file(bytes));
+  const std::string said = refusal([&] { read_number_file("m4.mat", bytes); });
+  EXPECT_NE(said.find("version 4: save it anew"), std::string::npos) << said;
+}
+
+TEST(NumberFiles, AColumnThatIsAnElementShortIsNamedWithItsLength) {
+  RecordingOptions options;
+  options.read.diameter = false;
+  options.columns = "X=X[mm],C=rate[deg],Z=Z[mm]";
+  const std::string said = refusal([&] { import_recording(made("stream.npz"), options); });
+  EXPECT_NE(said.find("the array rate (1 rows) cannot be a column, as the longest has"),
+            std::string::npos)
+      << said;
+}
+
 TEST(NumberFiles, AFileThatCannotBeReadOnIsNoShortFile) {
   const std::string said = refusal([] { read_file("/proc/self/mem"); });  // address 0
   EXPECT_NE(said.find("cannot be read (Input/output error)"), std::string::npos) << said;

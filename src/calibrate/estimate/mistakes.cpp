@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "calibrate/estimate/column_mistakes.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "math/golden_section.hpp"
 #include "trueaxis/calibration.hpp"
@@ -18,7 +20,7 @@
 namespace trueaxis {
 namespace {
 
-using calibrate_detail::fit_tips;
+using namespace calibrate_detail;
 
 constexpr double far_too_small = 30.0;  // scatter over the noise that is stated, or its inverse
 constexpr double same_factor = 0.02;    // of a factor between two units
@@ -102,102 +104,10 @@ constexpr double much_fitted = 0.3;  // of the RMS before, where no σ is stated
 // RMS that machines leave once everything is fitted: ten times what the component errors of worn
 // ones do (docs/reference/calibration.md).
 constexpr double largest_left_mm = 0.05;
-constexpr double some_numbers = 120;  // of readings, on which a mistake is tried first
-constexpr double some_leeway = 1.3;   // of the RMS that is left of them
-
-/// A way in which columns are written wrongly, and how they are mended.
-struct Mistake {
-  std::string what, mend;
-  std::function<void(MachineMeasurement&)> undo;
-  /// The factor by which mending makes the readings smaller, and the residuals with it.
-  double smaller = 1.0;
-};
-
-std::string d(std::size_t i) { return std::string("d") + "XYZ"[i]; }
-
-Mistake exchanged_axes(AxisName a, AxisName b) {
-  const std::string both = std::string(1, letter_of(a)) + " and " + std::string(1, letter_of(b));
-  return {"the columns " + both + " are exchanged", "exchange them", [=](MachineMeasurement& file) {
-            for (AxisPositions& at : file.axes) std::swap(at[index_of(a)], at[index_of(b)]);
-          }};
-}
-
-Mistake scaled_axis(AxisName axis, double factor, const std::string& what,
-                    const std::string& mend) {
-  const std::string letter(1, letter_of(axis));
-  return {fmt::format(fmt::runtime(what), letter), fmt::format(fmt::runtime(mend), letter),
-          [=](MachineMeasurement& file) {
-            for (AxisPositions& at : file.axes) at[index_of(axis)] *= factor;
-          }};
-}
-
-/// Deviations in another unit than their header says.
-Mistake scaled_deviations(double factor, const std::string& is, const std::string& said) {
-  return {"the deviations are in " + is + " and the header says " + said,
-          "write [" + is + "] after their names",
-          [=](MachineMeasurement& file) {
-            for (Vector3& one : file.deviation_mm)
-              for (double& size : one) size *= factor;
-          },
-          std::min(1.0, factor)};
-}
-
-void add_deviations(std::vector<Mistake>& list) {
-  list.push_back(scaled_deviations(1.0 / mm_per_um, "mm", "um"));
-  list.push_back(scaled_deviations(mm_per_um, "um", "mm"));
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = i + 1; j < 3; ++j)
-      list.push_back({"the columns " + d(i) + " and " + d(j) + " are exchanged", "exchange them",
-                      [=](MachineMeasurement& file) {
-                        for (Vector3& one : file.deviation_mm) std::swap(one[i], one[j]);
-                      }});
-  for (std::size_t i = 0; i < 3; ++i)
-    list.push_back({"the column " + d(i) + " has the wrong sign",
-                    "it is ball's centre - tip: turn its sign", [=](MachineMeasurement& file) {
-                      for (Vector3& one : file.deviation_mm) one[i] = -one[i];
-                    }});
-  list.push_back({"dX, dY and dZ have the wrong sign",
-                  "they are ball's centre - tip: turn their signs", [](MachineMeasurement& file) {
-                    for (Vector3& one : file.deviation_mm)
-                      for (double& size : one) size = -size;
-                  }});
-}
-
-/// Of every column that these files have.
-std::vector<Mistake> mistakes_of(const Machine& machine, std::span<const MachineMeasurement> data) {
-  std::vector<Mistake> list;
-  const bool deviations = std::ranges::any_of(
-      data, [](const MachineMeasurement& file) { return !file.deviation_mm.empty(); });
-  if (deviations) add_deviations(list);
-  const auto& axes = machine.axes;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    for (std::size_t j = i + 1; j < axes.size(); ++j)
-      if (is_rotary(axes[i].name) == is_rotary(axes[j].name))
-        list.push_back(exchanged_axes(axes[i].name, axes[j].name));
-    list.push_back(scaled_axis(axes[i].name, -1.0, "the column {} runs the other way",
-                               "turn its sign, or axes.{}.direction of the machine"));
-    if (!is_rotary(axes[i].name)) {
-      list.push_back(
-          scaled_axis(axes[i].name, mm_per_inch, "the column {} is in inch", "write {}[in]"));
-      list.push_back(
-          scaled_axis(axes[i].name, 1.0 / mm_per_inch, "the column {} is in mm", "write {}[mm]"));
-      continue;
-    }
-    list.push_back(scaled_axis(axes[i].name, 1.0 / rad_per_deg, "the column {} is in radians",
-                               "write {}[rad]"));
-    list.push_back(
-        scaled_axis(axes[i].name, rad_per_deg, "the column {} is in degrees", "write {}[deg]"));
-  }
-  for (const bool inch : {true, false})
-    list.push_back({std::string("X, Y and Z are in ") + (inch ? "inch" : "mm"),
-                    std::string("write [") + (inch ? "in]" : "mm]") + " after their names",
-                    [=](MachineMeasurement& file) {
-                      for (AxisPositions& at : file.axes)
-                        for (std::size_t k = 0; k < 3; ++k)
-                          at[k] *= inch ? mm_per_inch : 1.0 / mm_per_inch;
-                    }});
-  return list;
-}
+constexpr double explained_mm = 0.02;   // RMS: a mistake that leaves more explains nothing
+constexpr double least_tool_mm = 0.01;  // to which the lengths of tools are known anyway
+constexpr double some_numbers = 120;    // of readings, on which a mistake is tried first
+constexpr double some_leeway = 1.3;     // of the RMS that is left of them
 
 /// RMS of the readings once location errors are fitted; none where there is no fit, or one that no
 /// machine has.
@@ -247,6 +157,26 @@ std::optional<double> left_of_some_mm(const Machine& machine,
   } catch (const InputError&) {
     return std::nullopt;
   }
+}
+
+/// Tools whose lengths are wrong against each other, each by what leaves least of the readings: the
+/// square of this is a parabola of the length.
+std::vector<Mistake> tool_mistakes(const Machine& machine, std::span<const MachineMeasurement> data,
+                                   const CalibrationOptions& options) {
+  std::vector<Mistake> out;
+  for (const double length_mm : tool_lengths(machine, data)) {
+    const auto square = [&](double more_mm) {
+      std::vector<MachineMeasurement> longer(data.begin(), data.end());
+      for (MachineMeasurement& file : longer) longer_tool(length_mm, more_mm).undo(file);
+      const double left = left_of_some_mm(machine, longer, options).value_or(0.0);
+      return left * left;
+    };
+    const double step = options.largest_length_mm;
+    const double less = square(-step), more = square(step), here = square(0.0);
+    const double most_mm = 0.5 * step * (less - more) / (less + more - 2.0 * here);
+    if (std::abs(most_mm) > least_tool_mm) out.push_back(longer_tool(length_mm, most_mm));
+  }
+  return out;
 }
 
 void undo(const Mistake& mistake, std::vector<MachineMeasurement>& data) {
@@ -316,6 +246,15 @@ std::string one_wrong_row(const Machine& machine, std::span<const MachineMeasure
       out.front().second + 1, data[out.front().first].source, left(in) / mm_per_um);
 }
 
+/// Whether residuals are far too small for their noise, however few their degrees of freedom.
+bool scatters_too_little(const Calibration& found) {
+  const double ratio = found.rms_parameters_mm / found.stated_noise_mm;
+  const auto n = static_cast<double>(found.equations);
+  return ratio * far_too_small < 1.0 &&
+         cdf(boost::math::chi_squared(n - static_cast<double>(found.unknowns)), n * ratio * ratio) <
+             1e-3;
+}
+
 /// Whatever k is printed: a wrong unit stays wrong.
 double least_size(const CalibratedParameter& p) {
   return std::abs(p.estimate.value) - 2.0 * p.estimate.u;
@@ -328,7 +267,7 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
                            double left_by_all_mm) {
   if (const std::string why = read_out_mistake(data, found); !why.empty()) return why;
   if (found.equations == 0 || found.balls.empty()) return "";  // read-outs alone
-  if (found.converged && found.rms_after_mm * far_too_small < found.stated_noise_mm)
+  if (found.converged && scatters_too_little(found))
     return fmt::format(
         "the readings scatter by {:.2g} µm, but their stated noise is {:.2g} µm: check the unit of "
         "the deviations in the header, and `# noise`",
@@ -345,12 +284,16 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
   std::string best;
   double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * as_read_mm;
   const Worthwhile worthwhile(machine, data, options, found.equations);
-  for (const Mistake& mistake : mistakes_of(machine, data)) {
+  std::vector<Mistake> mistakes = column_mistakes(machine, data);
+  std::ranges::move(tool_mistakes(machine, data, options), std::back_inserter(mistakes));
+  for (const Mistake& mistake : mistakes) {
     if (!wrong && !worthwhile(mistake)) continue;
     std::vector<MachineMeasurement> right(data.begin(), data.end());
     undo(mistake, right);
     const std::optional<double> again_mm = left_mm(machine, right, options);
-    if (!again_mm || !(*again_mm < least_mm * mistake.smaller)) continue;
+    if (!again_mm || *again_mm > std::max(fine_mm, explained_mm) ||
+        !(*again_mm < least_mm * mistake.smaller))
+      continue;
     least_mm = *again_mm / mistake.smaller;
     best = fmt::format(
         "{}, and {:.3g} µm are left if {}: {}",
@@ -365,8 +308,9 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
                               "{:.3g} µm",
                               left_by_all_mm / mm_per_um)) +
          (noise_um > 0.0 ? fmt::format(", and their stated noise is {:.2g} µm", noise_um) : "") +
-         ": check the units of deviations and positions in the header. Check that the machine "
-         "file, the tool length and the columns belong to the measurement";
+         ", and no usual mistake in the columns explains it: check the units of deviations and "
+         "positions in the header. Check that the machine file, the zeros of the axes, the tool "
+         "length and the columns belong to the measurement, and that nothing moved";
 }
 
 std::string implausible(const Calibration& found, const CalibrationOptions& options) {
@@ -377,8 +321,9 @@ std::string implausible(const Calibration& found, const CalibrationOptions& opti
         far_beyond * (angle ? options.largest_angle_rad : options.largest_length_mm);
     if (!(least_size(p) > most)) continue;
     return fmt::format(
-        "{} is {:.4g} {}: no machine is so far from its model. Check that the machine file, the "
-        "tool length, and the units and signs of the columns belong to the measurement",
+        "{} is {:.4g} {}: no machine is so far from its model, and no usual mistake in the columns "
+        "explains it. Check the zeros of the axes and the tool length, and that the machine file "
+        "and the units and signs of the columns belong to the measurement",
         p.name, p.estimate.value * edge_factor(p.estimate.unit), angle ? "deg" : "mm");
   }
   return "";
@@ -395,6 +340,21 @@ std::string beyond_plausible(const Calibration& found, const CalibrationOptions&
       "check the tool length and the points in the machine file, as {} is {:.3g} mm (machines have "
       "{:g} mm at most): a length that is wrong by as much reads the same",
       furthest->name, furthest->estimate.value, options.largest_length_mm);
+}
+
+std::string components_beyond_plausible(const Calibration& found) {
+  std::string beyond;
+  for (const CalibratedComponent& one : found.components) {
+    const bool angle = one.rms.unit == "rad";
+    if (one.beyond)
+      beyond += fmt::format("{}{} {:.3g} {}", beyond.empty() ? "" : ", ", one.name,
+                            one.rms.value * (angle ? 1e6 : 1.0 / mm_per_um), angle ? "µrad" : "µm");
+  }
+  if (beyond.empty()) return "";
+  return fmt::format(
+      "check tool lengths, scales and what moved or drifted, as component errors of {} RMS are ten "
+      "times and more what machines have. Location errors may be wrong with them",
+      beyond);
 }
 
 }  // namespace trueaxis

@@ -14,6 +14,8 @@ namespace trueaxis::calibrate_detail {
 namespace {
 
 constexpr double shown = 3.0;  // u of an amount
+// Of the size that machines have: one error in 2000 is more, by Eq. 210 at this machine's ξ.
+constexpr double beyond = 10.0;
 
 bool is_kept(const TipFit& fit, const ErrorName& name) {
   return std::ranges::any_of(fit.solution.determined.kept,
@@ -255,7 +257,7 @@ class Together {
     Index at = effects_.fixed.size() + given_.root.cols();
     std::size_t group = 1;
     for (const PlausibleError& error : plausible_) {
-      CalibratedComponent one{to_string(error.name), {}, 0.0, false};
+      CalibratedComponent one{to_string(error.name), {}, 0.0, false, false};
       double square = 0.0, unknown = 0.0;
       for (const UncertainAmount& amount : error.amounts) {
         const double variance = covariance_(at, at), share = mean_square(amount);
@@ -266,6 +268,8 @@ class Together {
       }
       one.rms = {std::sqrt(square), std::sqrt(unknown), error.name.angular() ? "rad" : "mm", ""};
       one.plausible = error.plausible * effects_.times[group++];
+      one.beyond = one.rms.value - 2.0 * one.rms.u >
+                   beyond * error.plausible * std::max(1.0, effects_.times_all);
       out.components.push_back(std::move(one));
     }
   }

@@ -34,6 +34,7 @@ Json components_json(const Calibration& c) {
     entry.erase("value");
     entry["plausible"] = number(one.plausible * edge_factor(one.rms.unit));
     entry["shown"] = one.shown;
+    entry["beyond"] = one.beyond;
   }
   return json;
 }

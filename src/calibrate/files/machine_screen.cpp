@@ -102,7 +102,8 @@ std::string small_size(double size, const std::string& unit) {
 
 std::string calibration_screen(const Calibration& c) {
   const std::string beyond = beyond_noise(c);
-  const char* const verdict = beyond.empty() ? "DONE" : "UNEXPLAINED";
+  const char* const verdict =
+      beyond.empty() && components_beyond_plausible(c).empty() ? "DONE" : "UNEXPLAINED";
   std::string text;
   if (c.equations > 0)
     text = fmt::format(

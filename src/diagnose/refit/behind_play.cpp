@@ -31,7 +31,7 @@ struct Way {
   }
 };
 
-/// Where the play was taken up last.
+/// Where X took the play up last.
 struct Play {
   double play_mm, reading_mm = 0.0;
   double c = 0.0, z = 0.0, side = 0.0;

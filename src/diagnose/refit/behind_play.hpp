@@ -8,7 +8,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Readings behind a play: each is of the place where X last took the play up, X(C', Z') − b/2 if X
+/// Readings after a play: each is of the place where X last took the play up, X(C', Z') − b/2 if X
 /// grew there and + b/2 if it fell (play operator, Krasnosel'skii and Pokrovskii 1989; Eq. 53c).
 /// X turns back where it stands still, so that to first order the place is that of every size near.
 struct BehindPlay {

@@ -70,7 +70,7 @@ std::vector<Hypothesis> waves_of(const Joint& joint) {
 }
 
 /// A play is about the way of X with all its waves, which no search about the ideal part knows.
-/// Waves are taken one by one while they are worth it: those found without a play are partly its.
+/// Waves are added one by one while they are worth it: those found without a play are partly its.
 void try_play(const IdealModel& ideal, Searched& best) {
   const auto is_play = [](const Effect* effect) { return plays(of_effect(*effect, {})); };
   const auto play = std::ranges::find_if(ideal.problem.effects, is_play);
