@@ -120,14 +120,18 @@ std::string alternate_rows(const ProbeStream& stream, const FitResult& fit) {
       stream.source, 2.0 * half_mm / mm_per_um);
 }
 
-/// A sphere fits far better: any line through its centre is an axis of it; empty: none does.
+/// A sphere fits far better than a cone, which two sections are as well: any line through its
+/// centre is an axis of it; empty: none does.
 std::string is_sphere(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
   if (fit.surface != SurfaceKind::cone && fit.surface != SurfaceKind::cylinder) return "";
   if (fit.rms_mm < sphere_leaves_mm || stream.indication == Indication::relative ||
       list_set_ups(stream).size() > 1)
     return "";
   const FitResult sphere = refit(stream, SurfaceKind::sphere);
-  if (sphere.status != FitStatus::converged || !(sphere.rms_mm < sphere_share * fit.rms_mm))
+  const FitResult cone = fit.surface == SurfaceKind::cone ? fit : refit(stream, SurfaceKind::cone);
+  const double other_mm =
+      cone.status == FitStatus::converged ? std::min(cone.rms_mm, fit.rms_mm) : fit.rms_mm;
+  if (sphere.status != FitStatus::converged || !(sphere.rms_mm < sphere_share * other_mm))
     return "";
   return fmt::format(
       "the readings are those of a sphere of radius {:.6g} mm, not of a cone or cylinder, and a "

@@ -2,6 +2,7 @@
 #include "form/surface_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
@@ -23,9 +24,9 @@ constexpr int least_draws = 100;
 constexpr std::size_t least_angles = 8;     // of a section: a circle and some form
 constexpr double orders_over_cutoff = 1.5;  // the filter lets 21 % of these through
 constexpr std::size_t readings_an_order = 5;
-constexpr int fewest_degrees = 2, most_degrees = 10;
-constexpr int more_stations = 3;     // than degrees
-constexpr int between_stations = 8;  // places that are looked at
+constexpr int fewest_degrees = 2, most_degrees = 12;
+constexpr double degrees_a_turn = 1.25, stations_a_degree = 1.5;
+constexpr int between_stations = 16;  // places that are looked at
 constexpr double seen = 0.05, certain = 0.999;
 constexpr std::size_t angles_a_wave = 32, angles_of_doubtful = 3;  // an order more likely absent
 constexpr std::size_t fewest_angles = 96, most_angles = 720;
@@ -46,7 +47,8 @@ SurfaceModel::SurfaceModel(const SurfaceReadings& readings, const FormOptions& o
       static_cast<int>(std::min<std::size_t>(readings.size() / readings_an_order, 75));
   terms_.orders = std::clamp(static_cast<int>(std::ceil(orders_over_cutoff * options.high_upr)), 2,
                              std::max(2, most));
-  terms_.degrees = std::clamp(static_cast<int>(turns_), fewest_degrees, most_degrees);
+  terms_.degrees =
+      std::clamp(static_cast<int>(degrees_a_turn * turns_), fewest_degrees, most_degrees);
   sample();
   if (options.filter == ProfileFilter::robust_gaussian && leave_out_far()) sample();
   for (int n = 0; n <= terms_.orders; ++n) band_.push_back(passed_by_band(options, n));
@@ -148,8 +150,7 @@ void SurfaceModel::make_grid() {
   std::vector<std::size_t> by_z(z_mm_.size());
   std::iota(by_z.begin(), by_z.end(), std::size_t{0});
   std::ranges::stable_sort(by_z, {}, [&](std::size_t i) { return z_mm_[i]; });
-  const int stations = terms_.degrees + more_stations;
-  for (const double t : station_places(stations)) add_station(middle_mm_ + half_mm_ * t, by_z);
+  for (const double t : station_places()) add_station(middle_mm_ + half_mm_ * t, by_z);
   for (Station& station : stations_) station.orders = orders_at(station);
   for (const double z : z_mm_)
     ++std::ranges::min_element(stations_, {}, [&](const Station& station) {
@@ -157,26 +158,27 @@ void SurfaceModel::make_grid() {
       })->readings;
 }
 
-/// Even steps over −1 … 1, but that the nearest to the largest lobes of the mean is there: the
-/// worst section else lies between two.
-std::vector<double> SurfaceModel::station_places(int count) const {
-  const auto even = [](int s, int steps) { return 2.0 * s / steps - 1.0; };
+/// Even steps over −1 … 1, and where lobes, radius and distance from the axis of the mean are
+/// largest and the radius is smallest: the extremes else lie between two.
+std::vector<double> SurfaceModel::station_places() const {
+  const int steps = static_cast<int>(stations_a_degree * terms_.degrees) * between_stations;
+  std::array<double, 4> largest{}, there{};
   std::vector<double> out;
-  for (int s = 0; s < count; ++s) out.push_back(even(s, count - 1));
-  const auto lobes = [&](double t) {
+  for (int s = 0; s <= steps; ++s) {
+    const double t = 2.0 * s / steps - 1.0;
+    if (s % between_stations == 0) out.push_back(t);
     const VectorXd f = along(terms_.degrees, t);
-    double squares = 0.0;
+    const double radius = amplitudes(f, 0, mean_)[0];
+    double lobes = 0.0;
     for (int n = 2; n <= terms_.orders; ++n)
-      squares += (band_[static_cast<std::size_t>(n)] * amplitudes(f, n, mean_)).squaredNorm();
-    return squares;
-  };
-  double largest = 0.0, there = 0.0;
-  for (int s = 0; s <= between_stations * (count - 1); ++s) {
-    const double t = even(s, between_stations * (count - 1)), size = lobes(t);
-    if (size > largest) largest = size, there = t;
+      lobes += (band_[static_cast<std::size_t>(n)] * amplitudes(f, n, mean_)).squaredNorm();
+    const std::array<double, 4> sizes{lobes, radius, -radius, amplitudes(f, 1, mean_).norm()};
+    for (std::size_t k = 0; k < sizes.size(); ++k)
+      if (s == 0 || sizes[k] > largest[k]) largest[k] = sizes[k], there[k] = t;
   }
-  if (largest > 0.0)
-    *std::ranges::min_element(out, {}, [&](double t) { return std::abs(t - there); }) = there;
+  out.insert(out.end(), there.begin(), there.end());
+  std::ranges::sort(out);
+  out.erase(std::ranges::unique(out).begin(), out.end());
   return out;
 }
 

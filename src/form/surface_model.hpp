@@ -45,7 +45,7 @@ class SurfaceModel {
   };
   void put_about_axis(const SurfaceReadings& readings);
   void make_grid();
-  std::vector<double> station_places(int count) const;
+  std::vector<double> station_places() const;
   void add_station(double z_mm, std::span<const std::size_t> by_z);
   void keep_coefficients();
   void sample();

@@ -14,8 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double reaches[] = {0.3, 1.5, 4.0, 8.0};  // degrees that a course holds; 0.3: a line
-constexpr double shares[] = {0.1, 2.0};             // of what changes, over what stays
+constexpr double reaches[] = {0.3, 1.9, 5.0, 10.0};  // degrees that a course holds; 0.3: a line
+constexpr double shares[] = {0.1, 2.0};              // of what changes, over what stays
 constexpr double least_weight = 1e-4;
 
 /// How an order's size may run along Z: variances of its degrees over that of the first. The first

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "math/linear_algebra.hpp"
@@ -16,16 +17,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr std::size_t block = 1024;  // readings
-constexpr double quarter = 0.5 * std::numbers::pi;
+constexpr int cosines_from = 6;      // degrees
+constexpr double longer = 1.25;      // than the readings: where the cosines have no slope
 
-/// Sums over readings of functions of t times exp(ikθ). The functions of degrees d are c_j =
-/// cos(jφ), j ≤ 2d, t c_j, j ≤ d, t², and y c_j, y t, with φ = π (t + 1) / 2.
+/// Sums over readings of f_d f_e, e ≤ d, and y f_d, times exp(ikθ).
 class Sums {
  public:
   explicit Sums(const SurfaceTerms& terms)
       : degrees_(terms.degrees),
         orders_(2 * terms.orders),
-        sums_(MatrixXd::Zero(4 * terms.degrees + 5, 2 * orders_ + 2)) {}
+        sums_(MatrixXd::Zero(row_of(degrees_ + 1, degrees_ + 1), 2 * orders_ + 2)) {}
 
   void add(std::span<const double> angle_rad, std::span<const double> t,
            std::span<const double> y_mm) {
@@ -43,30 +44,20 @@ class Sums {
     sums_ += linear::transposed_product(along, around);
   }
 
-  Complex cosine(Index j, Index k) const { return at(j, k); }
-  Complex t_cosine(Index j, Index k) const { return at(2 * degrees_ + 1 + j, k); }
-  Complex t_square(Index k) const { return at(3 * degrees_ + 2, k); }
-  Complex y_cosine(Index j, Index k) const { return at(3 * degrees_ + 3 + j, k); }
-  Complex y_t(Index k) const { return at(4 * degrees_ + 4, k); }
+  Complex product(Index d, Index e, Index k) const { return at(row_of(d, e), k); }
+  Complex with_y(Index d, Index k) const { return at(row_of(degrees_ + 1, d), k); }
 
  private:
   Complex at(Index row, Index k) const { return {sums_(row, k), sums_(row, orders_ + 1 + k)}; }
 
+  static Index row_of(Index d, Index e) { return d * (d + 1) / 2 + e; }
+
   void fill_along(MatrixXd& along, Index i, double t, double y) const {
-    const double c = std::cos(quarter * (t + 1.0));
-    double before = c, now = 1.0;
-    for (Index j = 0; j <= 2 * degrees_; ++j) {
-      along(i, j) = now;
-      if (j <= degrees_) {
-        along(i, 2 * degrees_ + 1 + j) = t * now;
-        along(i, 3 * degrees_ + 3 + j) = y * now;
-      }
-      const double next = 2.0 * c * now - before;
-      before = now;
-      now = next;
+    const Eigen::VectorXd f = form::along(static_cast<int>(degrees_), t);
+    for (Index d = 0; d <= degrees_; ++d) {
+      for (Index e = 0; e <= d; ++e) along(i, row_of(d, e)) = f[d] * f[e];
+      along(i, row_of(degrees_ + 1, d)) = y * f[d];
     }
-    along(i, 3 * degrees_ + 2) = t * t;
-    along(i, 4 * degrees_ + 4) = y * t;
   }
 
   /// exp(ikθ) by the order before it; anew every 32 orders.
@@ -87,17 +78,6 @@ class Sums {
   MatrixXd sums_;
 };
 
-double scale_of(int d) { return d == 0 ? 1.0 : d == 1 ? std::sqrt(3.0) : std::sqrt(2.0); }
-
-/// Σ f_d f_e exp(ikθ), e ≤ d.
-Complex product(const Sums& sums, int d, int e, Index k) {
-  const double scale = scale_of(d) * scale_of(e);
-  if (d == 1 && e == 1) return scale * sums.t_square(k);
-  if (d == 1) return scale * sums.t_cosine(0, k);
-  if (e == 1) return scale * sums.t_cosine(d, k);
-  return 0.5 * scale * (sums.cosine(d + e, k) + sums.cosine(d - e, k));
-}
-
 class NormalMatrix {
  public:
   NormalMatrix(const SurfaceTerms& terms, const Sums& sums)
@@ -106,7 +86,7 @@ class NormalMatrix {
     for (int d = 0; d <= terms.degrees; ++d)
       for (int e = 0; e <= d; ++e) {
         for (std::size_t k = 0; k < products_.size(); ++k)
-          products_[k] = product(sums, d, e, static_cast<Index>(k));
+          products_[k] = sums.product(d, e, static_cast<Index>(k));
         for (int a = 0; a <= terms.orders && d <= terms.degrees_of(a); ++a)
           for (int b = 0; b <= terms.orders && e <= terms.degrees_of(b); ++b) put(a, d, b, e);
       }
@@ -138,8 +118,13 @@ class NormalMatrix {
 
 Eigen::VectorXd along(int degrees, double t) {
   Eigen::VectorXd out(degrees + 1);
-  for (int d = 0; d <= degrees; ++d)
-    out[d] = scale_of(d) * (d == 1 ? t : std::cos(d * quarter * (t + 1.0)));
+  double before = t, polynomial = 1.0;
+  for (int d = 0; d <= std::min(degrees, cosines_from - 1); ++d) {
+    out[d] = std::sqrt((4.0 * d * d - 1.0) / (2.0 * d * d - 1.0)) * polynomial;
+    before = std::exchange(polynomial, 2.0 * t * polynomial - before);
+  }
+  const double phase = 0.5 * std::numbers::pi * (t / longer + 1.0);
+  for (int d = cosines_from; d <= degrees; ++d) out[d] = std::numbers::sqrt2 * std::cos(d * phase);
   return out;
 }
 
@@ -157,7 +142,7 @@ SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angl
   out.right.resize(terms.size());
   for (int n = 0; n <= terms.orders; ++n)
     for (int d = 0; d <= terms.degrees_of(n); ++d) {
-      const Complex sum = scale_of(d) * (d == 1 ? sums.y_t(n) : sums.y_cosine(d, n));
+      const Complex sum = sums.with_y(d, n);
       out.right[terms.column(n, d)] = sum.real();
       if (n > 0) out.right[terms.column(n, d) + 1] = sum.imag();
     }

@@ -9,8 +9,9 @@
 namespace trueaxis::form {
 
 /// A surface over angle θ and length t in [−1, 1], h = Σ_n Σ_d f_d(t) (a_nd cos nθ + b_nd sin nθ).
-/// Here f_0 = 1, f_1 = √3 t and, from d = 2 on, f_d = √2 cos(d π (t + 1) / 2). Each has the mean
-/// square 1, and none is larger at an end than inside, as polynomials are. Eq. 317.
+/// Up to d = 5 f_d is a multiple of the Chebyshev polynomial T_d: courses that are simple, whatever
+/// their slope at the ends. Above it is √2 cos(d π (t/1.25 + 1) / 2), which resolves as much at the
+/// ends as inside; polynomials would make form of noise there. The mean squares are 1. Eq. 317.
 struct SurfaceTerms {
   int orders = 1, degrees = 1;
   int last_order_of_all = 16;  ///< orders above have fewer degrees
@@ -41,8 +42,8 @@ struct SurfaceSums {
   std::size_t count = 0;
 };
 
-/// A product of two columns is a sum of products of few functions of t with exp(ikθ). AᵀA therefore
-/// takes N (3D + 4) (4M + 2) steps for its (2M + 1)² (D + 1)² entries. Eq. 318.
+/// A product of two columns is a sum of products f_d f_e with exp(ikθ). AᵀA therefore takes
+/// N (D + 1) (D + 4) (2M + 1) steps for its (2M + 1)² (D + 1)² entries. Eq. 318.
 SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angle_rad,
                          std::span<const double> t, std::span<const double> y_mm);
 

@@ -52,18 +52,16 @@ double speed_of(const ProbeStream& stream, const TurnCentre& turn) {
   return one ? between(turn.begin, turn.end - 1) : std::nan("");
 }
 
+/// Without the turns next to the step: two speeds may mix there, or a slip a reading later.
 Turning turning_about(const CentreStep& step, const TurnCentres& centres,
                       const ProbeStream& stream) {
   Turning out;
   const auto at = std::ranges::find(centres.list, step.reading, &TurnCentre::begin);
   if (at == centres.list.end()) return out;
-  for (const TurnCentre& one : centres.list) {
-    if (one.run != at->run) continue;
-    if (!stream.time_s.empty()) {
-      if (const double speed = speed_of(stream, one); std::isfinite(speed)) out.add(one, speed);
-    } else if (one.begin != step.reading && one.end != step.reading) {  // where two speeds may mix
-      out.add(one, one.begin < step.reading ? 0.0 : 1.0);
-    }
+  for (auto one = centres.list.begin(); one != centres.list.end(); ++one) {
+    if (one->run != at->run || std::abs(one - at) <= 1) continue;
+    const double speed = !stream.time_s.empty() ? speed_of(stream, *one) : one < at ? 0.0 : 1.0;
+    if (std::isfinite(speed)) out.add(*one, speed);
   }
   return out;
 }

@@ -6,6 +6,8 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "math/statistics.hpp"
+#include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -53,6 +55,50 @@ bool take_centre(const ProbeStream& stream, std::span<const double> value_mm, Tu
   return true;
 }
 
+/// A cone about a line: what runs along Z within a turn moves its centre, out otherwise than back.
+class StraightAxis {
+ public:
+  StraightAxis(const ProbeStream& stream, std::span<const double> value_mm) {
+    if (stream.has_position()) {
+      const auto [low, high] = range_of(stream.position_mm);
+      middle_mm_ = 0.5 * (low + high);
+      half_mm_ = std::max(0.5 * (high - low), 1e-9);
+    }
+    Matrix6 normal = Matrix6::Identity() * 1e-9;
+    Vector6 right = Vector6::Zero();
+    for (std::size_t i = 0; i < value_mm.size(); ++i) {
+      if (!std::isfinite(value_mm[i])) continue;
+      const Vector6 row = row_of(stream, i);
+      normal.noalias() += row * row.transpose();
+      right += value_mm[i] * row;
+    }
+    q_ = normal.ldlt().solve(right);
+  }
+  std::vector<double> left(const ProbeStream& stream, std::span<const double> value_mm) const {
+    std::vector<double> out(value_mm.begin(), value_mm.end());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] -= q_.dot(row_of(stream, i));
+    return out;
+  }
+  void add_to(TurnCentre& centre) const {
+    const double t = (centre.position_mm - middle_mm_) / half_mm_;
+    centre.x_mm += q_[2] + q_[4] * t;
+    centre.y_mm += q_[3] + q_[5] * t;
+  }
+
+ private:
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  Vector6 row_of(const ProbeStream& stream, std::size_t i) const {
+    const double c = std::cos(stream.c_rad[i]), s = std::sin(stream.c_rad[i]);
+    const double t = stream.has_position() ? (stream.position_mm[i] - middle_mm_) / half_mm_ : 0.0;
+    Vector6 out;
+    out << 1.0, t, c, s, t * c, t * s;
+    return out;
+  }
+  double middle_mm_ = 0.0, half_mm_ = 1.0;
+  Vector6 q_;
+};
+
 }  // namespace
 
 TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm) {
@@ -65,22 +111,36 @@ TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> valu
   const double per_turn = static_cast<double>(count) * two_pi / way;
   const double turns = std::max({1.0, std::ceil(least_readings / per_turn),
                                  std::ceil(way / two_pi / static_cast<double>(most_centres))});
+  const StraightAxis axis(stream, value_mm);
+  const std::vector<double> left_mm = axis.left(stream, value_mm);
   double squares = 0.0, freedom = 0.0;
+  std::vector<bool> ends(count, false);  // a turn before a reading: another pass begins
+  for (const Pass& pass : find_passes(stream)) ends[pass.begin] = true;
   TurnCentre next;
   double gone = 0.0;
   int sense = 0;
   for (std::size_t i = 1; i < count; ++i) {
-    gone += std::abs(stream.c_rad[i] - stream.c_rad[i - 1]);
+    // The way to the next pass does not count: the step before it stands for it.
+    const std::size_t to = ends[i] ? i - 1 : i;
+    const bool alone = ends[i] && to == next.begin;
+    const double step = alone ? 0.0 : stream.c_rad[to] - stream.c_rad[to - 1];
+    gone += std::abs(step);
+    const bool whole = gone >= turns * two_pi * (1.0 - 1e-9);
     const bool other = !stream.setup.empty() && stream.setup[i] != stream.setup[next.begin];
-    if (gone < turns * two_pi * (1.0 - 1e-9) && !other) continue;
-    const double led = stream.c_rad[i] - stream.c_rad[next.begin];
+    if (!whole && !ends[i]) continue;
+    const double led = stream.c_rad[i - 1] + step - stream.c_rad[next.begin];
     const int now = led > 0.0 ? 1 : -1;
     next.end = i;
-    const bool leads = !other && std::abs(led) >= straight * gone;
-    if (!leads || (sense != 0 && now != sense)) ++next.run;
-    sense = leads ? now : 0;
+    const bool leads = whole && !other && std::abs(led) >= straight * gone;
+    if (whole || other) {
+      if (!leads || (sense != 0 && now != sense)) ++next.run;
+      sense = leads ? now : 0;
+    }
     TurnCentre one = next;
-    if (leads && take_centre(stream, value_mm, one, squares, freedom)) out.list.push_back(one);
+    if (leads && take_centre(stream, left_mm, one, squares, freedom)) {
+      axis.add_to(one);
+      out.list.push_back(one);
+    }
     next.begin = i;
     gone = 0.0;
   }

@@ -27,7 +27,8 @@ struct TurnCentres {
 };
 
 /// The centres of all turns of `value_mm`, one a reading: what a fit leaves, or the readings.
-/// Values that are not finite do not count. Lobes move none of them, and count in u.
+/// Values that are not finite do not count. Lobes move none of them, and count in u. No turn holds
+/// readings of two passes.
 TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm);
 
 /// By how much the centres scatter beyond their u, √(χ²/ν) (Birge 1932); 1 if noise does so once in

@@ -82,6 +82,14 @@ std::optional<UnitChange> reading_changes_unit(const ProbeStream& stream) {
   if (!(step_rad > 0.0)) return {};
   const auto turn = static_cast<std::size_t>(std::lround(two_pi / step_rad));
   if (turn < shown_run) return {};
+  std::vector<bool> begins(x.size(), false);  // of a pass: the rear side has the other sign
+  std::vector<std::size_t> pass_of(x.size(), 0);
+  std::size_t passes = 0;
+  for (const Pass& pass : find_passes(stream)) {
+    begins[pass.begin] = true;
+    for (std::size_t i = pass.begin; i < pass.end; ++i) pass_of[i] = passes;
+    ++passes;
+  }
   const auto apart_mm = [&](std::size_t begin, double factor) {  // of a turn from the turn before
     double squares = 0.0;
     for (std::size_t i = begin; i < begin + turn; ++i) {
@@ -90,14 +98,25 @@ std::optional<UnitChange> reading_changes_unit(const ProbeStream& stream) {
     }
     return std::sqrt(squares / static_cast<double>(turn));
   };
-  std::vector<bool> begins(x.size(), false);  // of a pass: the rear side has the other sign
-  for (const Pass& pass : find_passes(stream)) begins[pass.begin] = true;
+  // As above, within a pass: one section is not as the next. Sections of one turn have only those.
+  const auto usually_apart_mm = [&](std::size_t begin) {
+    double squares = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < begin + turn; ++i) {
+      if (pass_of[i] != pass_of[i - turn]) continue;
+      const double d = x[i] - x[i - turn];
+      squares += d * d;
+      ++count;
+    }
+    return 2 * count < turn ? apart_mm(begin, 1.0)
+                            : std::sqrt(squares / static_cast<double>(count));
+  };
   for (std::size_t i = 2 * turn; i + turn <= x.size(); ++i) {
     for (const auto& [unit, what] : of_lengths) {
       if (unit < 0.0 && begins[i]) continue;
       for (const double factor : {unit, 1.0 / unit}) {
         if (std::abs(x[i] - factor * x[i - 1]) > 0.05 * std::abs(factor * x[i - 1])) continue;
-        const double usual_mm = near_steps * apart_mm(i - turn, 1.0);
+        const double usual_mm = near_steps * usually_apart_mm(i - turn);
         if (apart_mm(i, factor) <= usual_mm && apart_mm(i, 1.0) > usual_mm)
           return UnitChange{i + 1, what};
       }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "job/files/job_results.hpp"
@@ -67,18 +68,32 @@ std::vector<std::size_t> worst_sections(const FormResult& form) {
   return out;
 }
 
+/// The section of a case at the place of section `i` of the last one: each has stations of its own
+/// where its form is largest.
+const SectionForm* at_place(const FormResult& form, const SectionForm& section, std::size_t i) {
+  const std::vector<SectionForm>& all = form.sections;
+  if (i < all.size() && all[i].z_mm == section.z_mm) return &all[i];
+  const auto away = [&](const SectionForm& one) {
+    return one.z_mm && section.z_mm ? std::abs(*one.z_mm - *section.z_mm)
+                                    : std::numeric_limits<double>::infinity();
+  };
+  const auto nearest = std::ranges::min_element(all, {}, away);
+  return nearest != all.end() && std::isfinite(away(*nearest)) ? &*nearest : nullptr;
+}
+
 Json sections_data(const std::vector<const FormResult*>& cases) {
   std::vector<std::size_t> list = worst_sections(*cases.back());
   std::ranges::sort(list);
   return list_of(list, [&](std::size_t i) -> Json {
-    const SectionForm& section = cases.front()->sections[i];
-    const auto of_case = [i](const FormResult* one) {
-      return estimate_data(of(one->sections[i], "RONt", "MZCI"));
+    const SectionForm& section = cases.back()->sections[i];
+    const auto of_case = [&](const FormResult* one) {
+      const SectionForm* there = at_place(*one, section, i);
+      return estimate_data(there ? of(*there, "RONt", "MZCI") : nullptr);
     };
     return {{"z_mm", section.z_mm ? Json(*section.z_mm) : Json(nullptr)},
             {"readings", section.readings},
             {"cases", list_of(cases, of_case)},
-            {"lobes", cases.back()->sections[i].lobes}};
+            {"lobes", section.lobes}};
   });
 }
 
@@ -159,7 +174,7 @@ Json part_form_data(const PartForm& form) {
   data["high_upr"] = form.probed.options.high_upr;
   data["surface_readings"] =
       form.probed.surface ? Json(form.probed.surface->readings) : Json(nullptr);
-  data["section_count"] = form.probed.sections.size();
+  data["section_count"] = cases.back()->sections.size();
   data["motion"] = form.motion;
   data["open"] = form.open;
   data["k"] = form.probed.options.coverage_factor;

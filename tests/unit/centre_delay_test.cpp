@@ -88,7 +88,7 @@ TEST(CentreDelay, ASlipStaysOne) {
     const auto across = weighed({.second_rpm = 60.0, .slip_x_mm = y, .slip_y_mm = -x}, seed);
     ASSERT_TRUE(across);
     EXPECT_FALSE(across->may_be_delay) << "seed " << seed;
-    // Where the speed changes and across, nothing tells the two apart.
+    // A reading after the change of speed and across, nothing tells the two apart.
     const auto either = weighed({.slip_x_mm = y, .slip_y_mm = -x}, seed);
     ASSERT_TRUE(either);
     EXPECT_TRUE(either->may_be_delay) << "seed " << seed;

@@ -125,6 +125,26 @@ TEST(UnitChanges, APassThatTurnsBackNearZeroHasNoOtherSign) {
   EXPECT_TRUE(unit_changes(mirrored).find("(its sign)") != std::string::npos);
 }
 
+// Sections of two turns and a half reading: a turn before the third begins lies in two of them.
+TEST(UnitChanges, ASectionOfTwiceTheRadiusIsNotInAnotherUnit) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> noise(0.0, 2e-4);
+  ProbeStream cone;
+  cone.x_convention = XConvention{};
+  for (int i = 0; i < 4 * 213; ++i) {
+    const int section = i / 213;
+    const double c = -two_pi * (i % 213) / 106.5 + 2.0 * section;
+    cone.c_rad.push_back(c - 4.0 * std::numbers::pi * section);
+    cone.position_mm.push_back(8.2 * section);
+    cone.pass.push_back(section + 1);
+    cone.reading_mm.push_back(0.1 + 2.9 * section + 0.055 * std::cos(c) + noise(random));
+  }
+  EXPECT_EQ(unit_changes(cone), "");
+  ProbeStream doubled = helix();
+  for (std::size_t i = readings / 2; i < readings; ++i) doubled.reading_mm[i] *= 2.0;
+  EXPECT_TRUE(unit_changes(doubled).find("(radius and diameter)") != std::string::npos);
+}
+
 TEST(ColumnOrder, ASensorAtItsLimitIsSeenAndAQuantisedOneIsNot) {
   ProbeStream clipped = helix(), rounded = helix(0.0, 0.0);
   for (double& x : clipped.reading_mm) x = std::min(x, 20.04);

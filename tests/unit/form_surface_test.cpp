@@ -45,11 +45,10 @@ double largest_roundness(const FormResult& result) {
   return largest;
 }
 
-// Lobes that are local have their top half-way between two of 13 even stations, 1.67 mm from each:
-// a station is there within an eighth of the step between them. One off it reads
-// 1 − exp(−1.67²/2/4²) = 8 % less of them.
+// Lobes that are local have their top half-way between two of 19 even stations: one is there within
+// a sixth of the step between them.
 TEST(FormSurface, AStationIsAtTheTopOfLocalLobes) {
-  const double step_mm = length_mm / 12.0, top_mm = 6.5 * step_mm, a = 5e-3;
+  const double step_mm = length_mm / 18.0, top_mm = 9.5 * step_mm, a = 5e-3;
   const auto lobes = [&](double c, double z) {
     return 20.0 + a * std::exp(-0.5 * std::pow((z - top_mm) / 4.0, 2)) * std::cos(3.0 * c);
   };
@@ -112,6 +111,42 @@ TEST(FormSurface, NothingResolvedIsABound) {
   ASSERT_TRUE(value.estimate.interval);
   EXPECT_LT(largest_roundness(result), 2e-3);
   EXPECT_LE(least_of(value, 2.0), 0.0);
+}
+
+/// CYLt or STRsa of a helix of σ 0.3 µm, whose course along Z in t = −1 … 1 has the size
+/// `truth_mm`.
+void expect_course(const PartShape& of_t, const char* name, const char* reference,
+                   double truth_mm) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const auto shape = [&](double c, double z) {
+      return 20.0 + of_t(c, 2.0 * z / length_mm - 1.0);
+    };
+    const FormResult result = assess_form(helix(shape, 3e-4, seed), band(15.0));
+    const FormValue& value = of_whole(result, name, reference);
+    // U, k = 2, is exceeded once in 20 streams, 3 u once in 370. The mean of a section has
+    // u = 3e-4/√36.7 = 0.05 µm.
+    EXPECT_NEAR(value.estimate.value, truth_mm, 3.0 * value.estimate.u) << seed;
+    EXPECT_LT(value.estimate.u, 0.1e-3) << seed;
+  }
+}
+
+// A barrel, a cubic and a bent median line slope at the ends. The radius of the cylinder's zone has
+// the range of the course; a cubic is a range of twice its coefficient.
+TEST(FormSurface, ACourseMaySlopeAtTheEnds) {
+  const double a = 20e-3;
+  expect_course([&](double, double t) { return a * t * t; }, "CYLt", "MZCY", a);
+  expect_course([&](double, double t) { return a * t * t * t; }, "CYLt", "MZCY", 2.0 * a);
+  expect_course([&](double c, double t) { return a * t * t * std::cos(c); }, "STRsa", "", a);
+}
+
+// A barrel whose top lies between two even stations, and ends that count in full.
+TEST(FormSurface, StationsAreAtTheTopAndTheEnds) {
+  const double a = 20e-3, top = 0.5 / 9.0;
+  expect_course([&](double, double t) { return -a * (t - top) * (t - top); }, "CYLt", "MZCY",
+                a * (1.0 + top) * (1.0 + top));
+  // Growing lobes are largest at the very end; a station was moved off the other one.
+  expect_course([&](double c, double t) { return a * t + 1e-3 * (1.0 + t) * std::cos(3.0 * c); },
+                "CYLt", "MZCY", 2.0 * a + 2e-3 * through(3.0, 15.0));
 }
 
 // A bend of 2.4 u is not found in most streams: its bound holds it. The rounding of an association

@@ -155,15 +155,28 @@ TEST(FitPlausible, RowsThatAlternateAreOfTwoStreams) {
 
 // A sphere that leaves a tenth of more than 10 µm; not of a gauge, nor of several set-ups.
 TEST(FitPlausible, ABallHasNoAxis) {
-  const auto is_ball = [](double left_mm, double sphere_mm, auto change) {
+  double cone_mm = 0.2;
+  const auto is_ball = [&](double left_mm, double sphere_mm, auto change) {
     ProbeStream stream = part();
     FitResult fit = leaving(slow_and_noise(left_mm, 0.0));
     change(stream, fit);
-    return says(why(stream, fit, sphere_mm), "the readings are those of a sphere of radius 25 mm");
+    const auto refit = [&](const ProbeStream&, SurfaceKind surface) {
+      FitResult again;
+      again.surface = surface, again.status = FitStatus::converged;
+      again.rms_mm = surface == SurfaceKind::sphere ? sphere_mm : cone_mm;
+      again.parameters = {{"radius", {25.0, 0.01, "mm", ""}}};
+      return again;
+    };
+    return says(implausible(stream, fit, refit),
+                "the readings are those of a sphere of radius 25 mm");
   };
   const auto as_it_is = [](ProbeStream&, FitResult&) {};
   EXPECT_TRUE(is_ball(0.011, 0.00105, as_it_is));
   EXPECT_FALSE(is_ball(0.011, 0.00115, as_it_is));
+  // Two sections are as well on a cone as on a sphere.
+  cone_mm = 0.001;
+  EXPECT_FALSE(is_ball(0.1, 0.001, as_it_is));
+  cone_mm = 0.2;
   EXPECT_FALSE(is_ball(0.009, 1e-5, as_it_is));
   EXPECT_TRUE(
       is_ball(0.1, 0.001, [](ProbeStream&, FitResult& fit) { fit.surface = SurfaceKind::cone; }));

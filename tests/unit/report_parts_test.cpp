@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
@@ -204,6 +206,34 @@ TEST(ReportRoundness, AnArcTellsFewerUndulationsOrNone) {
   JobResult failed = trace_of_five_lobes(100);
   failed.fits.front().status = FitStatus::rank_deficient;
   EXPECT_TRUE(roundness_data(failed.streams.front(), failed.fits.front()).is_null());
+}
+
+// Each case of a surface has stations of its own where its form is largest.
+TEST(ReportPartForm, SectionsOfTheCasesStandSideBySideByPlace) {
+  const auto of_sections = [](const std::vector<std::pair<double, double>>& all) {
+    FormResult out;
+    for (const auto& [z_mm, round_mm] : all) {
+      SectionForm section;
+      section.z_mm = z_mm;
+      section.values.push_back(
+          {.name = "RONt", .reference = "MZCI", .estimate = {round_mm, 1e-5, "mm", ""}});
+      section.circles.resize(1);
+      out.sections.push_back(section);
+    }
+    return out;
+  };
+  PartForm form;
+  form.probed = of_sections({{0.0, 1e-3}, {10.0, 2e-3}});
+  form.less_motion = of_sections({{0.0, 4e-3}, {4.0, 5e-3}, {10.0, 6e-3}});
+  const json data = part_form_data(form);
+  EXPECT_EQ(data["section_count"], 3);
+  ASSERT_EQ(data["sections"].size(), 3U);
+  const double z_mm[] = {0.0, 4.0, 10.0}, probed_mm[] = {1e-3, 1e-3, 2e-3};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(data["sections"][i]["z_mm"], z_mm[i]);
+    EXPECT_EQ(data["sections"][i]["cases"][0]["mm"], probed_mm[i]);
+    EXPECT_EQ(data["sections"][i]["cases"][1]["mm"], 4e-3 + 1e-3 * static_cast<double>(i));
+  }
 }
 
 TEST(StreamReport, IsThePageOfAJobAndTheSameBytesEachTime) {

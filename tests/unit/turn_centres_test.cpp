@@ -84,6 +84,32 @@ TEST(TurnCentres, AStepIsFoundWhereItIs) {
   }
 }
 
+/// A cone about an inclined axis, out and back in 15.3 turns each, the second pass at another angle
+/// and, by `moved_mm`, elsewhere.
+ProbeStream out_and_back(std::uint64_t seed, double moved_mm) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(0.0, sigma_mm);
+  ProbeStream out;
+  for (int i = 0; i < 744; ++i) {
+    const bool back = i >= 372;
+    const double way = (back ? i - 372 : i) / 24.3, z = back ? 15.3 - way : way;
+    const double c = two_pi * (way + (back ? 16.7 : 0.0));
+    out.c_rad.push_back(c);
+    out.position_mm.push_back(z);
+    out.reading_mm.push_back(20.0 + 0.8 * z + (0.02 + 0.05 * z) * std::cos(c - 1.0) +
+                             (back ? moved_mm * std::cos(c) : 0.0) + noise(random));
+  }
+  return out;
+}
+
+// A turn over the reversal does not count, and the centre runs along Z within every one: by 50 µm,
+// of which a slope in time made a part a step of the centre, of the other sign on the way back.
+TEST(TurnCentres, OutAndBackIsNoStepUnlessThePartMoved) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    EXPECT_FALSE(step_of(out_and_back(seed, 0.0))) << seed;
+  EXPECT_TRUE(step_of(out_and_back(3, 200 * sigma_mm)));
+}
+
 TEST(TurnCentres, ASpreadBeyondTheirUIsBirges) {
   ProbeStream stream = turning(5, 40);
   for (std::size_t i = 0; i < stream.size(); ++i)

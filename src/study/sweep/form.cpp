@@ -25,7 +25,7 @@ ProbeStream middle_turns(const ProbeStream& stream) {
   const long middle = turn_of(stream, stream.size() - 1) / 2;
   ProbeStream out = stream;
   for (auto* column : {&out.reading_mm, &out.c_rad, &out.position_mm, &out.time_s}) column->clear();
-  out.pass.clear();
+  out.pass.clear(), out.setup.clear();
   for (std::size_t i = 0; i < stream.size(); ++i) {
     if (std::abs(turn_of(stream, i) - middle) > 1) continue;
     out.reading_mm.push_back(stream.reading_mm[i]);
