@@ -41,7 +41,8 @@ std::optional<CentreStep> moved_in_pass(const ProbeStream& stream, std::span<con
                                         const FitResult& fit, double by_chance) {
   if (!fit.axis_known() || left_mm.size() != stream.size()) return {};
   const std::vector<double> counted_mm = without_lone_outliers(left_mm);
-  const auto step = find_centre_step(turn_centres(stream, counted_mm), by_chance);
+  const auto step =
+      find_centre_step(turn_centres(stream, counted_mm, CentresOf::residuals), by_chance);
   if (!step || !(step->size_mm > U_of_axis_mm(fit))) return {};
   std::vector<double> value_mm = stream.reading_mm;
   for (std::size_t i = 0; i < value_mm.size(); ++i)

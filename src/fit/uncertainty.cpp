@@ -71,8 +71,8 @@ double spread_of_turns(const JointModel& model, const std::vector<double>& resid
     std::vector<double> left_mm(stream.size());
     for (std::size_t i = 0; i < left_mm.size(); ++i)
       left_mm[i] = std::clamp(residual_mm[part.rows.empty() ? i : part.rows[i]], -clip_mm, clip_mm);
-    most = std::max(most,
-                    centres_spread(turn_centres(stream, left_mm), part.surface->parameter_count()));
+    most = std::max(most, centres_spread(turn_centres(stream, left_mm, CentresOf::residuals),
+                                         part.surface->parameter_count()));
   }
   return most;
 }

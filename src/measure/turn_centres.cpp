@@ -101,7 +101,8 @@ class StraightAxis {
 
 }  // namespace
 
-TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm) {
+TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm,
+                         CentresOf of) {
   TurnCentres out;
   const std::size_t count = stream.size();
   if (count < least_readings) return out;
@@ -111,7 +112,7 @@ TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> valu
   const double per_turn = static_cast<double>(count) * two_pi / way;
   const double turns = std::max({1.0, std::ceil(least_readings / per_turn),
                                  std::ceil(way / two_pi / static_cast<double>(most_centres))});
-  const StraightAxis axis(stream, value_mm);
+  const StraightAxis axis(stream, of == CentresOf::readings ? value_mm : std::span<const double>{});
   const std::vector<double> left_mm = axis.left(stream, value_mm);
   double squares = 0.0, freedom = 0.0;
   std::vector<bool> ends(count, false);  // a turn before a reading: another pass begins

@@ -26,10 +26,13 @@ struct TurnCentres {
   double u_mm = 0.0;      ///< of x and of y of one that follows, root mean square
 };
 
-/// The centres of all turns of `value_mm`, one a reading: what a fit leaves, or the readings.
-/// Values that are not finite do not count. Lobes move none of them, and count in u. No turn holds
-/// readings of two passes.
-TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm);
+/// Readings lie about an axis that runs along Z within a turn; what a fit leaves of them does not.
+enum class CentresOf { readings, residuals };
+
+/// The centres of all turns of `value_mm`, one a reading. Values that are not finite do not count.
+/// Lobes move none of them, and count in u. No turn holds readings of two passes.
+TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm,
+                         CentresOf of = CentresOf::readings);
 
 /// By how much the centres scatter beyond their u, √(χ²/ν) (Birge 1932); 1 if noise does so once in
 /// 1000 streams. Eq. 313. @param lines what a fit took out of the centres: parameters

@@ -300,7 +300,7 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
       pass_minutes + minutes_to_clamp, same,
       [&](Clamping& c) { c.clamp_force_ratio *= less_force, c.axis += 1; });
   if (!face) {
-    add("XJ", "jog X by a known 100 µm and probe again", pass_minutes + minutes_between, same,
+    add("XJ", "jog X by +100 µm (x_jog) and probe again", pass_minutes + minutes_between, same,
         [&](Clamping& c) { c.x_jog_mm += jog_mm; });
   }
   std::erase_if(

@@ -71,12 +71,13 @@ std::vector<Hypothesis> waves_of(const Joint& joint) {
 
 /// A play is about the way of X with all its waves, which no search about the ideal part knows.
 /// Waves are added one by one while they are worth it: those found without a play are partly its.
+/// A display that rounds holds its readings as a play does.
 void try_play(const IdealModel& ideal, Searched& best) {
   const auto is_play = [](const Effect* effect) { return plays(of_effect(*effect, {})); };
   const auto play = std::ranges::find_if(ideal.problem.effects, is_play);
   Model with = best.search->model;
   if (with.terms.empty() || play == ideal.problem.effects.end() ||
-      is_condensed(ideal.problem.point))
+      is_condensed(ideal.problem.point) || ideal.problem.rounding_mm > 0.0)
     return;
   std::erase_if(with.terms, [](const Hypothesis& h) { return plays(h) || may_be_of_play(h); });
   with.terms.push_back(of_effect(**play, {}));
