@@ -137,6 +137,17 @@ TEST(DiagnosedRivals, ASlipIsNotTheSecondOrderOfAProbeOffHeight) {
   }
 }
 
+/// A cylinder that runs out another way with every seed.
+Scenario running_out(std::uint64_t seed, double run_out_mm, double sigma_mm) {
+  Scenario scenario = turned_cylinder(seed, 17.7, sigma_mm);
+  const double towards = 0.7 * static_cast<double>(seed);
+  scenario.part.x0_mm = run_out_mm * std::cos(towards);
+  scenario.part.y0_mm = run_out_mm * std::sin(towards);
+  scenario.part.l = scenario.part.m = 0.0;
+  scenario.plan.passes[0].readings_per_revolution = 36.5;
+  return scenario;
+}
+
 // A play of a third of the eccentricity turns it by 15° and comes back as flat tops: three lobes
 // that the reading's own eccentricity, which it turned, explains. About the eccentricity that is
 // read the lobes were another cause's, and the axis was 1.7 µm off at U 0.4 µm in 12 of 20 streams.
@@ -144,12 +155,7 @@ TEST(DiagnosedRivals, APlayOfAThirdOfTheEccentricityIsNoThreeLobes) {
   int named = 0;
   constexpr int streams = 12;
   for (std::uint64_t seed = 1; seed <= streams; ++seed) {
-    Scenario scenario = turned_cylinder(seed, 17.7, 0.0009);
-    const double towards = 0.7 * static_cast<double>(seed);
-    scenario.part.x0_mm = 0.007 * std::cos(towards),
-    scenario.part.y0_mm = 0.007 * std::sin(towards);
-    scenario.part.l = scenario.part.m = 0.0;
-    scenario.plan.passes[0].readings_per_revolution = 36.5;
+    Scenario scenario = running_out(seed, 0.007, 0.0009);
     scenario.effects = {{"probe.hysteresis", {{"play_mm", 0.0025}}}};
     const Diagnosis diagnosis = diagnosed_cylinder(simulate(scenario));
     named += diagnosis.findings.size() == 1 && diagnosis.findings[0].effect() == "probe.hysteresis";
@@ -164,12 +170,7 @@ TEST(DiagnosedRivals, APlayNextToLobesIsFoundWithThem) {
   int named = 0;
   constexpr int streams = 12;
   for (std::uint64_t seed = 1; seed <= streams; ++seed) {
-    Scenario scenario = turned_cylinder(seed, 17.7, 0.0004);
-    const double towards = 0.7 * static_cast<double>(seed);
-    scenario.part.x0_mm = 0.010 * std::cos(towards),
-    scenario.part.y0_mm = 0.010 * std::sin(towards);
-    scenario.part.l = scenario.part.m = 0.0;
-    scenario.plan.passes[0].readings_per_revolution = 36.5;
+    Scenario scenario = running_out(seed, 0.010, 0.0004);
     scenario.effects = {{"probe.hysteresis", {{"play_mm", 0.0015}}},
                         {seed % 2 == 0 ? "part.roundness" : "spindle.radial_synchronous",
                          {{"order", 5.0}, {"amplitude_mm", 0.003}}}};

@@ -10,7 +10,6 @@
 #include "diagnose/refit/places_before.hpp"
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/noise.hpp"
-#include "diagnose/regression/size_prior.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -40,12 +39,11 @@ std::vector<double> contribution_of(const Hypothesis& h, const LinearisationPoin
   return contribution(point, {&h, 1}, span_of(linear), threads);
 }
 
-/// Where a lag or a play is of the size that was found. @param of which of them
-template <class Which>
-void linearise_at_sizes(std::vector<Hypothesis>& terms, const Eigen::VectorXd& found, Which of) {
+/// Where a lag or a play is of the size that was found.
+void linearise_at_sizes(std::vector<Hypothesis>& terms, const Eigen::VectorXd& found) {
   Eigen::Index at = 0;
   for (Hypothesis& h : terms) {
-    if (of(h)) {
+    if (is_linearised_at_its_size(h)) {
       const Refinement& place = *h.effect->refinement;
       h.shape.*place.parameter = std::clamp(found(at), place.low, place.high);
     }
@@ -219,7 +217,7 @@ void RelinearisedFit::place(const Eigen::VectorXd& found, const FitResult& exten
     place = {.after = std::move(place.after)};
   const bool behind = std::ranges::any_of(terms_, plays);
   if (behind || std::ranges::any_of(terms_, moves)) placed_at_ = found;
-  linearise_at_sizes(terms_, found, is_linearised_at_its_size);
+  linearise_at_sizes(terms_, found);
   play_side_ = SharedColumn();
   moved_.reset();
   if (std::ranges::any_of(terms_, turns)) {
