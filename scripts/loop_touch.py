@@ -33,6 +33,20 @@ TOUCHED = {
 REAR = "setup = 2\n[[setup]]\nnumber = 2\nside = \"rear\"\n"
 
 
+def positions(samples):
+    """Of the slide, |X| and Z in mm: one list per stretch without a gap. Where a busy computer loses samples, halsampler
+    writes "overrun". The sampler holds positions from before: a program begins where the probe is clear."""
+    ways = [[]]
+    for row in map(str.split, samples.splitlines()):
+        if len(row) != 4:
+            ways.append([])
+            continue
+        x, z = abs(float(row[0])), float(row[2])
+        if any(ways) or x > 33.999 or z > 8.099:
+            ways[-1].append((x, z))
+    return ways
+
+
 def touch(loop, name):
     """A program of touch points, with a probe that triggers, and the way that the control took."""
     surface, part, axis, (start, end), both = TOUCHED[name]
@@ -47,16 +61,13 @@ def touch(loop, name):
         time.sleep(0.1)
         sampler.terminate()
         sampler.wait()
-    rows = [line.split() for line in Path(f"{name}.samples").read_text().splitlines()]
-    way = [(abs(float(row[0])), float(row[2])) for row in rows if len(row) == 4]
-    # The sampler holds positions from before: a program begins where the probe is clear.
-    way = way[next(i for i, (x, z) in enumerate(way) if x > 33.999 or z > 8.099):]
+    ways = positions(Path(f"{name}.samples").read_text())
     # Where the ball is not clear, it moves along one axis only, but for what an encoder rounds.
     clear = {"shaft": lambda x, z: x > 33.999 or z > 8.099, "bore": lambda x, z: x < 8.701 or z > 8.099,
              "face": lambda x, z: z > 8.099}[name]
     other = 0 if name == "face" else 1
-    moved = sum(abs(b[other] - a[other]) > 2e-4 for a, b in zip(way, way[1:]) if not clear(*a) and not clear(*b))
-    loop.expect(moved == 0, f"{name}: {len(way)} positions of the slide, {moved} of them off its way")
+    moved = sum(abs(b[other] - a[other]) > 2e-4 for way in ways for a, b in zip(way, way[1:]) if not clear(*a) and not clear(*b))
+    loop.expect(moved == 0, f"{name}: {sum(map(len, ways))} positions of the slide, {moved} of them off its way")
     loop.trueaxis("fit", f"{name}.log", "--surface", surface, "--json", f"{name}.json")
     return json.loads(Path(f"{name}.json").read_text())
 
