@@ -217,6 +217,7 @@ struct LoopResponse {
   double gain = 0.0;     ///< logarithm: 0.01 cuts 1 % too far off the spindle axis
   double lag_rad = 0.0;  ///< positive: the axis comes out turned in the sense of the part's angle
   double u_gain = 0.0, u_lag_rad = 0.0;  ///< standard uncertainties
+  double u_cut_mm = 0.0;                 ///< by which the axis of a cut scatters, in x and in y
   std::vector<LearnedMotion> motion{};   ///< that the tool follows
 };
 

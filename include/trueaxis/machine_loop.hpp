@@ -21,21 +21,21 @@ struct MotionEvidence {
   LoopEvidence cos{}, sin{};
 };
 
-/// What is known of the machine from the parts before. Each part adds the whole response: what its
-/// table was corrected for, and what its verification shows beyond that.
-struct MachineLoop {
-  int parts = 0;
-  LoopEvidence gain, lag;
-  int forms = 0;  ///< parts whose form was measured elsewhere
-  std::vector<MotionEvidence> motion{};
-};
-
 /// The error that stays: the axis of a cut, probed again, over the target axis (logarithm), beyond
 /// what the table was corrected for. Standard uncertainties are those of the readings, and of what
 /// the cut shows that is neither gain nor lag.
 struct LoopObservation {
   double gain = 0.0, lag_rad = 0.0, u_gain = 0.0, u_lag_rad = 0.0;
+  double per_mm = 0.0;  ///< standard deviation of either if cuts scatter by 1 mm in x and in y
   std::vector<LearnedMotion> motion{};  ///< less the form that was left; none: not measured
+};
+
+/// What is known of the machine from the parts before. Each part adds the whole response: what its
+/// table was corrected for, and what its verification shows beyond that.
+struct MachineLoop {
+  std::vector<LoopObservation> parts{};  ///< without their motions
+  int forms = 0;                         ///< parts whose form was measured elsewhere
+  std::vector<MotionEvidence> motion{};
 };
 
 /// The response before any part was verified: normal about 0.

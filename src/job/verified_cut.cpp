@@ -17,6 +17,7 @@ namespace {
 
 using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 using Matrix42 = Eigen::Matrix<double, 4, 2>;
+using Matrix24 = Eigen::Matrix<double, 2, 4>;
 
 /// Of two independent normal numbers the mean square.
 constexpr double freedom = 2.0;
@@ -64,7 +65,9 @@ LoopObservation ratio(const Axis& target, const AxisEstimate& cut) {
   Eigen::Matrix2d to_log;
   to_log << turn.real(), -turn.imag(), turn.imag(), turn.real();
   const Eigen::Matrix2d u2 = wider * to_log * information.inverse() * to_log.transpose();
-  return {log.real(), log.imag(), std::sqrt(u2(0, 0)), std::sqrt(u2(1, 1)), {}};
+  const Matrix24 of_scatter = to_log * information.inverse() * weighted.transpose();
+  const double per_mm = of_scatter.leftCols<2>().norm() / std::sqrt(2.0);
+  return {log.real(), log.imag(), std::sqrt(u2(0, 0)), std::sqrt(u2(1, 1)), per_mm, {}};
 }
 
 }  // namespace

@@ -275,7 +275,7 @@ TEST_F(MachineFeedback, RefusesAResultThatIsNotOfThePartBeforeOnThisMachine) {
   expect(with("part_2.csv", "part_1.csv"), last, "a part does not come before itself");
   expect(with("part_2.csv", "cut_1.csv"), last, "a part does not come before itself");
   std::string changed = read_text(folder_ / last);
-  const std::size_t at = changed.find("\"information\"");
+  const std::size_t at = changed.find("\"per_mm\"");
   changed[changed.find('.', at) - 1] ^= 1;
   file("changed.json", changed);
   expect(plain, "changed.json", "was changed after TrueAxis wrote it");
@@ -335,17 +335,17 @@ TEST_F(MachineFeedback, RefusesAWrongSignByName) {
 TEST_F(MachineFeedback, RefusesAMachineThatChangedAndAnInvertedServoByName) {
   std::mt19937_64 random(8);
   ShopLathe lathe;
-  make(1, lathe, random);
-  ASSERT_EQ(plan(2, lathe, drawn_part(random), previous(1)).exit_code, 0);
+  make(3, lathe, random);  // they tell how far its cuts scatter
+  ASSERT_EQ(plan(4, lathe, drawn_part(random), previous(3)).exit_code, 0);
   lathe.servo_lag_s = 2e-3;
-  cut(2, lathe);
-  const CommandStreams changed = verify(2, previous(1));
+  cut(4, lathe);
+  const CommandStreams changed = verify(4, previous(3));
   EXPECT_EQ(changed.exit_code, 3) << changed.out;
-  EXPECT_TRUE(contains(changed.err, "shows that the machine changed since cut_1/result.json"))
+  EXPECT_TRUE(contains(changed.err, "shows that the machine changed since cut_3/result.json"))
       << changed.err;
   lathe.servo_gain = -1.0;
-  cut(2, lathe);
-  const CommandStreams inverted = verify(2, previous(1));
+  cut(4, lathe);
+  const CommandStreams inverted = verify(4, previous(3));
   EXPECT_EQ(inverted.exit_code, 3) << inverted.out;
   EXPECT_TRUE(contains(inverted.err, "The servo or the probe is inverted")) << inverted.err;
 }

@@ -14,7 +14,7 @@ namespace trueaxis {
 namespace {
 
 LoopObservation seen(int order, double cos_mm, double sin_mm, double u_mm = 1e-5) {
-  return {0.0, 0.0, 1.0, 1.0, {{order, cos_mm, sin_mm, u_mm}}};
+  return {0.0, 0.0, 1.0, 1.0, 0.0, {{order, cos_mm, sin_mm, u_mm}}};
 }
 
 MachineLoop after_forms(std::initializer_list<LoopObservation> parts) {

@@ -86,13 +86,18 @@ Json loop_object(const LoopResponse& r) {
 }
 
 LoopResponse response_in(const LoopObservation& seen) {
-  return {seen.gain, seen.lag_rad, seen.u_gain, seen.u_lag_rad, seen.motion};
+  return {seen.gain, seen.lag_rad, seen.u_gain, seen.u_lag_rad, 0.0, seen.motion};
 }
 
 Json evidence_object(const MachineLoop& loop) {
-  return {{"parts", loop.parts},
-          {"gain", evidence_object(loop.gain)},
-          {"lag", evidence_object(loop.lag)},
+  return {{"parts", list_of(loop.parts,
+                            [](const LoopObservation& one) -> Json {
+                              return {{"gain", one.gain},
+                                      {"lag_rad", one.lag_rad},
+                                      {"u_gain", one.u_gain},
+                                      {"u_lag_rad", one.u_lag_rad},
+                                      {"per_mm", one.per_mm}};
+                            })},
           {"forms", loop.forms},
           {"motion", list_of(loop.motion, [](const MotionEvidence& e) -> Json {
              return {{"order", e.order},
@@ -102,17 +107,25 @@ Json evidence_object(const MachineLoop& loop) {
 }
 
 MachineLoop loop_from(const Json& json) {
-  MachineLoop loop{json.at("parts"), evidence_from(json.at("gain")), evidence_from(json.at("lag")),
-                   json.value("forms", 0)};
+  MachineLoop loop;
+  for (const Json& one : json.at("parts"))
+    loop.parts.push_back({one.at("gain"),
+                          one.at("lag_rad"),
+                          one.at("u_gain"),
+                          one.at("u_lag_rad"),
+                          one.at("per_mm"),
+                          {}});
+  loop.forms = json.value("forms", 0);
   for (const Json& one : json.value("motion", Json::array()))
     loop.motion.push_back(
         {one.at("order"), evidence_from(one.at("cos")), evidence_from(one.at("sin"))});
   return loop;
 }
 
-Json response_object(const LoopResponse& r, int parts) {
+Json response_object(const LoopResponse& r, const MachineLoop& loop) {
   Json json = loop_object(r);
-  json["parts"] = parts;
+  json["u_cut_mm"] = r.u_cut_mm;
+  json["parts"] = loop.parts.size();
   return json;
 }
 
@@ -136,6 +149,8 @@ Json feedback_in(const std::string& path) {
     refuse(path,
            "was changed after TrueAxis wrote it, the hash of `feedback` differs: run the job "
            "of that part once more");
+  if (!feedback.at("evidence").at("parts").is_array())
+    refuse(path, "is of an earlier version of TrueAxis: start anew without --previous");
   if (feedback.at("verification").is_null())
     refuse(path,
            "is of a part that was not probed again after its cut: give the last one that was");
@@ -168,6 +183,8 @@ std::string percent_and_degrees(const LoopResponse& r) {
   std::string text =
       fmt::format("gain {:+.3g} ± {:.2g} %, lag {:+.3g} ± {:.2g}°", 100.0 * r.gain,
                   200.0 * r.u_gain, r.lag_rad / rad_per_deg, 2.0 * r.u_lag_rad / rad_per_deg);
+  if (r.u_cut_mm > 0.0)
+    text += fmt::format(", cuts repeat within ± {:.2g} µm", 2.0 * r.u_cut_mm / mm_per_um);
   for (const LearnedMotion& one : r.motion) {
     const double size_mm = std::hypot(one.cos_mm, one.sin_mm);
     if (size_mm > refuted_by * one.u_mm)
@@ -256,7 +273,7 @@ void expect_table(const JobResult& result, const JobFile& file) {
 void learn_from_cut(JobResult& result, const JobFile& file, const std::string& previous) {
   MachineFeedback& feedback = *result.feedback;
   const std::vector<std::string> corrected = corrected_causes(result);
-  if (feedback.before.parts > 0 && corrected != feedback.corrected)
+  if (!feedback.before.parts.empty() && corrected != feedback.corrected)
     refuse(file.path,
            fmt::format("the diagnosis corrects the references for [{}], and in {} for [{}]: a lag "
                        "or gain would count twice; state it in [sensor] of all jobs, or run this "
@@ -303,14 +320,14 @@ Json feedback_object(const JobResult& result) {
   const MachineFeedback& f = *result.feedback;
   Json json{{"machine", Json::parse(f.machine)},
             {"corrected_causes", f.corrected},
-            {"corrected_for", response_object(result.job.loop, f.before.parts)}};
+            {"corrected_for", response_object(result.job.loop, f.before)}};
   json["verification"] = nullptr;
   if (f.seen) {
     json["verification"] = loop_object(response_in(*f.seen));
     json["verification"]["off"] =
         to_json(Estimate{f.off_mm, f.U_off_mm / result.verdict.coverage_factor, "mm", ""});
   }
-  json["learned"] = response_object(response_of(f.after, f.prior), f.after.parts);
+  json["learned"] = response_object(response_of(f.after, f.prior), f.after);
   json["evidence"] = evidence_object(f.after);
   json["streams"] = f.streams;
   json["hash"] = content_hash(json.dump());
@@ -321,10 +338,10 @@ std::string feedback_screen(const JobResult& result) {
   if (!result.feedback) return "";
   const MachineFeedback& f = *result.feedback;
   std::string text;
-  if (f.before.parts > 0)
-    text += fmt::format("loop   The table is corrected for what {} showed of the machine: {}\n",
-                        counted(static_cast<std::size_t>(f.before.parts), "part"),
-                        percent_and_degrees(result.job.loop));
+  if (!f.before.parts.empty())
+    text +=
+        fmt::format("loop   The table is corrected for what {} showed of the machine: {}\n",
+                    counted(f.before.parts.size(), "part"), percent_and_degrees(result.job.loop));
   const std::optional<double> least_mm = coaxiality_of_cut_not_met_mm(result);
   if (f.seen)
     text += fmt::format(
@@ -333,8 +350,7 @@ std::string feedback_screen(const JobResult& result) {
         least_mm ? fmt::format("NOT MET, coaxiality at least {} µm: a",
                                significant(*least_mm / mm_per_um, 2))
                  : "A",
-        f.off_mm / mm_per_um, f.U_off_mm / mm_per_um,
-        counted(static_cast<std::size_t>(f.after.parts), "part"),
+        f.off_mm / mm_per_um, f.U_off_mm / mm_per_um, counted(f.after.parts.size(), "part"),
         percent_and_degrees(response_of(f.after, f.prior)));
   return text;
 }
