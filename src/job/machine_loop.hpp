@@ -9,8 +9,8 @@ namespace trueaxis {
 /// together, and gains up to the largest that a sensor may have.
 LoopPrior loop_prior(double probing_rad_per_s, double cutting_rad_per_s);
 
-/// The response by all parts so far, each weighted by its u and by how far cuts of this machine
-/// scatter, and shrunk towards 0 by the prior (Eqs. 323, 324).
+/// The response by all parts so far, shrunk towards 0 by the prior. Each part counts by its u and
+/// by how far cuts of this machine scatter (Eqs. 323, 324).
 LoopResponse response_of(const MachineLoop& loop, const LoopPrior& prior);
 
 /// What a verification contradicts; none: it may be learned from.
