@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "measure/passes_motion.hpp"
@@ -194,21 +193,6 @@ std::vector<Pass> find_passes(const ProbeStream& stream) {
   if (stream.pass.empty()) passes = cut_by_speed(stream, passes);
   for (Pass& pass : passes) describe(stream, pass);
   return passes;
-}
-
-std::vector<int> find_revolutions(const ProbeStream& stream, const std::vector<Pass>& passes) {
-  // A text file rounds C: a reading this close before a whole turn has made it.
-  constexpr double rounding_turns = 1e-6;
-  constexpr double most_turns = std::numeric_limits<int>::max();
-  std::vector<int> revolutions(stream.size(), 0);
-  for (const Pass& pass : passes) {
-    expects(pass.begin <= pass.end && pass.end <= stream.size(), "passes of this stream");
-    for (std::size_t i = pass.begin; i < pass.end; ++i) {
-      const double turns = std::abs(stream.c_rad[i] - stream.c_rad[pass.begin]) / two_pi;
-      revolutions[i] = static_cast<int>(std::min(std::floor(turns + rounding_turns), most_turns));
-    }
-  }
-  return revolutions;
 }
 
 namespace {

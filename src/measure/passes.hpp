@@ -24,8 +24,4 @@ struct Pass {
 /// word. Single steps between runs (positioning moves) belong to the pass that they end.
 std::vector<Pass> find_passes(const ProbeStream& stream);
 
-/// Revolution number of every reading inside its pass: floor(|C - C_first| / 2 pi), where a reading
-/// within 1e-6 of a whole turn has made it (a text file rounds C).
-std::vector<int> find_revolutions(const ProbeStream& stream, const std::vector<Pass>& passes);
-
 }  // namespace trueaxis

@@ -45,7 +45,6 @@ TEST(MeasuredStream, RoundnessTraceIsOneTurn) {
   const auto passes = find_passes(stream);
   ASSERT_EQ(passes.size(), 1u);
   EXPECT_NEAR(passes[0].readings_per_revolution, 3600.0, 1e-2);  // C has nine decimals
-  EXPECT_EQ(find_revolutions(stream, passes).back(), 0);
 }
 
 }  // namespace

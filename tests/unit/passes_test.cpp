@@ -316,21 +316,6 @@ TEST(Passes, SmallStreams) {
   EXPECT_THROW(find_passes(section), ContractViolation);
 }
 
-TEST(Revolutions, CountTurnsInsideAPass) {
-  Plan plan(false);
-  plan.move(25, 1.0 / 12, 0).jump(0, 10).move(12, -1.0 / 12, 0);
-  const auto passes = find_passes(plan.stream);
-  const auto revolutions = find_revolutions(plan.stream, passes);
-  ASSERT_EQ(revolutions.size(), 37u);
-  EXPECT_EQ(passes.size(), 2u);
-  EXPECT_EQ(revolutions[0], 0);
-  EXPECT_EQ(revolutions[11], 0);
-  EXPECT_EQ(revolutions[12], 1);
-  EXPECT_EQ(revolutions[24], 2);
-  EXPECT_EQ(revolutions[passes[1].begin], 0);
-  EXPECT_EQ(revolutions[36], 0);
-}
-
 TEST(Passes, RandomPlansAreCoveredAndReproduced) {
   const unsigned seed = 20240;
   SCOPED_TRACE("seed " + std::to_string(seed));

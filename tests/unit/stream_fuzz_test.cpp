@@ -148,7 +148,6 @@ void expect_sound(const ProbeStream& stream, const std::string& round_trip) {
   }
   const std::vector<Pass> passes = find_passes(stream);
   EXPECT_EQ(passes.back().end, stream.size());
-  EXPECT_EQ(find_revolutions(stream, passes).size(), stream.size());
   write_stream_csv(stream, round_trip);
   const ProbeStream again = read_stream_csv(round_trip);
   EXPECT_EQ(again.reading_mm, stream.reading_mm);

@@ -34,7 +34,6 @@ struct MeasurementPlan {
   std::vector<AxisPositions> positions;  ///< rotary axes; of kind axis: the one that is read
   std::vector<Vector3> bar_mm;  ///< kind bar: from the ball to the tip, in M; at every position all
   AxisName axis = AxisName::X;  ///< kinds array and axis
-  Vector3 array_step{};         ///< kind array: unit direction of the bar
   double pace_s = 10.0;
   bool centred = false;  ///< kind ball: the linear axes are moved until d = 0 and then read
   Disturbance disturbance;
