@@ -15,13 +15,16 @@
 /// them. Inside mm and rad; an order is a number of undulations per revolution.
 namespace trueaxis {
 
+/// Of a sensor's angle if nobody states it: a mark that is read to a degree, ±1° at most.
+inline constexpr double default_u_angle_rad = 0.5 * rad_per_deg;
+
 struct SpindleOptions {
   int order_max = 100;  ///< orders 2 … order_max are separated, as far as the readings carry them
   /// The direction in which the tool feels the motion, from +X towards +Y. Unless stated: X, or the
   /// line of the sensors if they are all on one.
   std::optional<double> sensitive_rad;
-  double u_angle_rad = 0.0;         ///< standard uncertainty of each sensor's angle
-  double u_reindex_rad = 0.0;       ///< of the angle of each re-indexing
+  double u_angle_rad = default_u_angle_rad;  ///< standard uncertainty of each sensor's angle
+  double u_reindex_rad = 0.0;                ///< of the angle of each re-indexing
   double largest_condition = 100.;  ///< an order with a larger condition number is suppressed
   double coverage_factor = 2.0;     ///< k of U = k u
 };

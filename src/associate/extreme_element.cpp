@@ -102,6 +102,13 @@ std::vector<Placed> places_about(const Placed& gaussian, const PointCloud& cloud
   return out;
 }
 
+/// What a maximum inscribed element is largest in. One that points enclose has one of them at its
+/// far side or beyond, seen from the Gaussian element, and none is further off than the furthest:
+/// one that is larger by more has slipped out between the points.
+double size_of(const Placed& placed) {
+  return placed.shape == Shape::torus ? placed.second_size : placed.size;
+}
+
 /// Extremes over all points, from `start` and the points chosen so far.
 Minimax over_all(const Placed& start, const PointCloud& cloud, const Sides& sides,
                  ChosenPoints& chosen, int max_iterations) {
@@ -132,18 +139,27 @@ ExtremeElement extreme_element(const Placed& gaussian, const PointCloud& cloud, 
   if (!chosen.all()) chosen.add(first, sides, -1e300);
   out.best = over_all(gaussian, cloud, sides, chosen, max_iterations);
   out.global = convex(gaussian.shape, criterion);
+  Sides both = sides;
+  both.outer = both.inner = true;
+  const double far = furthest(gaussian, chosen.cloud(), both).top;
+  const double widest = size_of(gaussian) + far + 1e-9 * cloud.length;
+  const auto slipped = [&](const Minimax& one) {
+    return criterion == Criterion::maximum_inscribed && size_of(one.placed) - one.h > widest;
+  };
   if (!out.global && !out.best.runs_away) {
-    Sides both = sides;
-    both.outer = both.inner = true;
-    const double far = furthest(gaussian, chosen.cloud(), both).top;
     for (const Placed& start : places_about(gaussian, chosen.cloud(), sides, far)) {
       ++out.starts;
+      const auto better = [&](const Minimax& one, double by) {
+        return one.converged && !slipped(one) && (slipped(out.best) || one.h < out.best.h - by);
+      };
       const Minimax other = minimax(start, chosen.cloud(), sides, max_iterations);
-      if (!other.converged || other.h >= out.best.h - 1e-12 * cloud.length) continue;
+      if (!better(other, 1e-12 * cloud.length)) continue;
       const Minimax whole = over_all(other.placed, cloud, sides, chosen, max_iterations);
-      if (whole.converged && (whole.h < out.best.h || !out.best.converged)) out.best = whole;
+      if (better(whole, 0.0) || (whole.converged && !slipped(whole) && !out.best.converged))
+        out.best = whole;
     }
   }
+  out.best.runs_away = out.best.runs_away || slipped(out.best);
   for (Minimax::Contact& contact : out.best.contacts) contact.point = chosen.index(contact.point);
   if (out.best.runs_away) out.why = "The points do not enclose the element: it grows without bound";
   return out;

@@ -34,7 +34,8 @@ struct SpindleArguments {
   std::string orders = "2-100";
   Results results;
   std::optional<double> sensitive_deg;
-  double u_angle_deg = 0.0, u_reindex_deg = 0.0, coverage_factor = 2.0;
+  double u_angle_deg = default_u_angle_rad / rad_per_deg, u_reindex_deg = 0.0;
+  double coverage_factor = 2.0;
   double largest_condition = SpindleOptions{}.largest_condition, apart_deg = 20.0;
   int sensors = 0;
   bool advise = false, verbose = false, check = false;
@@ -142,7 +143,7 @@ void add_estimate(CLI::App& command, SpindleArguments& options) {
              "direction of the tool from +X towards +Y, deg (default 0)");
   add_option(command, "--u-angle-deg", options.u_angle_deg,
              number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"),
-             "standard uncertainty of a sensor's angle, deg (default 0)");
+             "standard uncertainty of a sensor's angle, deg (default 0.5)");
   add_option(command, "--u-reindex-deg", options.u_reindex_deg,
              number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"),
              "standard uncertainty of a re-indexing angle, deg (default 0)");

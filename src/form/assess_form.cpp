@@ -6,10 +6,11 @@
 #include <map>
 #include <string_view>
 
+#include "form/closing.hpp"
 #include "form/face.hpp"
 #include "form/notes.hpp"
+#include "form/part.hpp"
 #include "form/sampling.hpp"
-#include "form/sections.hpp"
 #include "form/swallowed.hpp"
 #include "form/uncertainty.hpp"
 #include "form/whole_model.hpp"
@@ -22,74 +23,6 @@ namespace form {
 namespace {
 
 constexpr const char* eccentricity = "eccentricity";
-constexpr std::size_t listed = 3;  // sections with the same trouble
-
-/// One noise for all sections: a section of few readings shows its own badly. Eq. 270.
-void share_noise(std::vector<SectionModel>& models, const FormOptions& options) {
-  double squares = 0.0, count = 0.0;
-  for (const SectionModel& one : models) {
-    const auto readings = static_cast<double>(one.readings());
-    const double shown_mm = one.shown_noise_of_reading_mm();
-    squares += readings * shown_mm * shown_mm;
-    count += readings;
-  }
-  const double shown_mm = count > 0.0 ? std::sqrt(squares / count) : 0.0;
-  for (SectionModel& one : models)
-    one.set_noise_of_reading(std::max(shown_mm, options.noise_mm.value_or(0.0)));
-}
-
-/// @param together what the readings carry as one surface
-std::vector<SectionModel> models_of(const Sections& sections, const FormOptions& options,
-                                    const std::string& source, int together) {
-  std::vector<SectionModel> models;
-  std::vector<Diagnostic> wrong;
-  for (const SectionReadings& one : sections.list) {
-    models.emplace_back(one, sections.radius_known, options);
-    if (models.back().trouble().empty()) continue;
-    const std::string where = one.z_mm ? fmt::format("section at Z = {:.6g} mm: ", *one.z_mm) : "";
-    wrong.push_back({source, 0, 0, where + models.back().trouble()});
-  }
-  if (wrong.size() > listed) {
-    const std::size_t more = wrong.size() - listed;
-    wrong.resize(listed);
-    int carried = 500;
-    for (const SectionModel& one : models) carried = std::min(carried, highest_order(one.raw()));
-    wrong.push_back({source, 0, 0,
-                     fmt::format("{} more sections likewise; all of them support up to {} UPR",
-                                 more, carried)});
-  }
-  if (!wrong.empty() && together >= 2)
-    wrong = {{source, 0, 0,
-              fmt::format("{:g} UPR needs more angles than the readings have, 7 per wave: as one "
-                          "surface they support up to {} UPR (--upr 1-{})",
-                          options.high_upr, together, together)}};
-  if (!wrong.empty()) throw InputError(std::move(wrong));
-  share_noise(models, options);
-  return models;
-}
-
-/// A part as one surface where its readings carry the cut-off together, else section by section.
-struct Part {
-  PartModel model;
-  Sections sections;
-};
-
-Part part_of(const ProbeStream& stream, const FormOptions& options) {
-  Part out;
-  const int carried =
-      options.filter == ProfileFilter::none ? 0 : upr_of_surface(stream, options).by_steps;
-  if (carried < options.high_upr) {
-    out.sections = sections_of(stream, options);
-    out.model.sections = models_of(out.sections, options, stream.source, carried);
-    return out;
-  }
-  const SurfaceReadings readings = surface_readings(stream, options);
-  out.sections.radius_known = readings.radius_known;
-  out.sections.notes.push_back(note_of_surface(readings));
-  out.model.surface.emplace(readings, options);
-  out.model.sections = out.model.surface->sections();
-  return out;
-}
 
 /// How the axis of a datum leans.
 Lean lean_of(const ProbeStream& datum, const FormOptions& options) {
@@ -364,12 +297,24 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
                       profiles[s] = models[s].changed(changed.list[s]);
                     return near_with_centres(moved);
                   });
+  const Unclosed unclosed(part.sections, options.high_upr);
+  unclosed.add_to(spread, sections, measured.part_mm, [&](const auto& part_mm) {
+    return near_with_centres({part_mm, measured.datum_mm});
+  });
+  const Unclosed datum_unclosed(of_datum.sections, options.high_upr);
+  datum_unclosed.add_to(spread, of_datum.model.sections, measured.datum_mm,
+                        [&](const auto& datum_mm) {
+                          return near_with_centres({measured.part_mm, datum_mm});
+                        });
   for (std::size_t s = 0; s < sections.size(); ++s) {
     result.sections.push_back(sections[s].form(assessment.taper()));
     const double u = spread[values.size() + s].u;
-    for (FormValue& one : result.sections.back().values)
+    for (FormValue& one : result.sections.back().values) {
       if (one.name == eccentricity)
         one.estimate.u = part.model.surface ? u : std::hypot(one.estimate.u, u);
+      if (one.name == "radius")
+        one.estimate.u = std::hypot(one.estimate.u, unclosed.u_of_radius(s));
+    }
   }
   result.radius_known = part.sections.radius_known;
   if (part.model.surface) result.surface = part.model.surface->form();
@@ -377,6 +322,8 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   result.swallowed =
       part.model.surface ? part.model.surface->swallowed() : swallowed_lobes(sections, options);
   withhold_swallowed(result);
+  unclosed.note_in(part.sections.notes, "");
+  datum_unclosed.note_in(part.sections.notes, "Datum: ");
   add_notes(stream, part.sections, result);
   for (std::string& note : assessment.notes()) result.notes.push_back(std::move(note));
   return result;

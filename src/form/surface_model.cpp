@@ -53,6 +53,7 @@ SurfaceModel::SurfaceModel(const SurfaceReadings& readings, const FormOptions& o
   if (options.filter == ProfileFilter::robust_gaussian && leave_out_far()) sample();
   for (int n = 0; n <= terms_.orders; ++n) band_.push_back(passed_by_band(options, n));
   make_grid();
+  find_unfollowed();
 }
 
 /// Deviations from a cone about its axis: where the radius is known, as distances from that axis.
@@ -95,9 +96,8 @@ void SurfaceModel::sample() {
   keep_coefficients();
 }
 
-/// Those that Eq. 263 gives no weight.
-bool SurfaceModel::leave_out_far() {
-  std::vector<double> off;
+std::vector<double> SurfaceModel::left_mm() const {
+  std::vector<double> left;
   for (std::size_t i = 0; i < t_.size(); ++i) {
     const VectorXd f = along(terms_.degrees, t_[i]);
     double h = 0.0;
@@ -107,8 +107,15 @@ bool SurfaceModel::leave_out_far() {
         h +=
             amplitude[0] * std::cos(n * angle_rad_[i]) + amplitude[1] * std::sin(n * angle_rad_[i]);
     }
-    off.push_back(std::abs(off_mm_[i] - h));
+    left.push_back(off_mm_[i] - h);
   }
+  return left;
+}
+
+/// Those that Eq. 263 gives no weight.
+bool SurfaceModel::leave_out_far() {
+  std::vector<double> off = left_mm();
+  for (double& one : off) one = std::abs(one);
   const double most = robust_medians * median(off);
   kept_.clear();
   for (std::size_t i = 0; i < off.size(); ++i)
@@ -300,7 +307,14 @@ std::vector<std::vector<double>> SurfaceModel::profiles(std::size_t draw) const 
   for (const Eigen::MatrixXd& columns : taken_off_)
     for (Index k = 0; k < columns.cols(); ++k) q += normal(engine) * columns.col(k);
   std::vector<std::vector<double>> out;
-  for (const Station& station : stations_) out.push_back(profile(station, q, true));
+  const double share = normal(engine);
+  for (const Station& station : stations_) {
+    std::vector<double>& at = out.emplace_back(profile(station, q, true));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const std::size_t k = station.place[i];
+      at[i] += share * station.unfollowed_mm.dot(Eigen::Vector3d(1.0, cosine_[k], sine_[k]));
+    }
+  }
   return out;
 }
 

@@ -42,6 +42,8 @@ class SurfaceModel {
     std::vector<std::size_t> place;  ///< of its angles in the grid
     std::vector<Order> orders;       ///< before the filter
     std::size_t readings = 0;        ///< that are nearer to it than to any other
+    /// What the readings about it have on average that no degree follows: radius, x, y.
+    Eigen::Vector3d unfollowed_mm = Eigen::Vector3d::Zero();
   };
   void put_about_axis(const SurfaceReadings& readings);
   void make_grid();
@@ -50,6 +52,8 @@ class SurfaceModel {
   void keep_coefficients();
   void sample();
   bool leave_out_far();
+  std::vector<double> left_mm() const;  ///< readings less the surface of the mean
+  void find_unfollowed();
   std::vector<double> kept_of(std::span<const double> column) const;
   /// Amplitudes of cos and sin of an order where the degrees are f.
   Eigen::Vector2d amplitudes(const Eigen::VectorXd& f, int order,

@@ -285,7 +285,8 @@ void JointEstimate::set_influences() {
   const auto& channels = layout_.channels();
   std::size_t brackets = 0;
   for (const Channel& one : channels) brackets = std::max(brackets, one.bracket + 1);
-  for (std::size_t b = 0; b < brackets && options_.u_angle_rad > 0.0 && !axial_; ++b) {
+  const std::size_t count = options_.u_angle_rad > 0.0 && layout_.has_across() ? brackets : 0;
+  for (std::size_t b = 0; b < count; ++b) {
     influences_.push_back({options_.u_angle_rad, {}, true});
     for (std::size_t i = 0; i < channels.size(); ++i)
       if (channels[i].bracket == b) influences_.back().channels.push_back(i);

@@ -12,6 +12,7 @@
 #include "base/angle.hpp"
 #include "spindle/joint_estimate.hpp"
 #include "spindle/recording.hpp"
+#include "spindle/seen_angles.hpp"
 #include "spindle/synchronous.hpp"
 #include "trueaxis/error.hpp"
 
@@ -23,15 +24,35 @@ using Eigen::Index;
 
 constexpr double noted_rad = 2.0 * rad_per_deg, refused_rad = 10.0 * rad_per_deg;
 constexpr double largest_shown_rad = 90.0 * rad_per_deg;
+constexpr double sure = 3.0;  // u of an angle that the motion shows
 constexpr double noted_gain = 0.03;
 constexpr double times_motion = 3.0;  // the spindle's own order 1 is no larger than its others.
+
+/// Compares the stated angles with those that the motion shows which does not repeat.
+void check_moving(const RunReadings& run, std::span<const SeenAngle> seen, double u_stated_rad,
+                  std::vector<Diagnostic>& wrong) {
+  const auto degrees = [](double rad) { return std::fmod(rad / rad_per_deg + 720.0, 360.0); };
+  for (std::size_t s = 1; s < seen.size(); ++s) {
+    const double stated_rad = run.angles_rad[s] - run.angles_rad[0];
+    const double off_rad = apart_rad(seen[s].from_first_rad, stated_rad);
+    const double u_rad = std::hypot(seen[s].u_rad, u_stated_rad);
+    if (off_rad <= std::max(noted_rad, sure * u_rad)) continue;
+    wrong.push_back(
+        {run.stream, 0, 0,
+         fmt::format("by the motion that does not repeat, sensor {} is {:.1f} ± {:.1f}° from "
+                     "sensor 1 (k = 2), but {:.1f}° is stated: check the angles and the gains, or "
+                     "state a larger u of the angles (--u-angle-deg)",
+                     s + 1, degrees(seen[s].from_first_rad), 2.0 * seen[s].u_rad / rad_per_deg,
+                     degrees(stated_rad))});
+  }
+}
 
 /// Holds the stated angles against the eccentricity, which all sensors of a set-up see alike, each
 /// at its own angle: where columns are exchanged or an angle has the other sign, it is far off.
 /// Small differences, of angle or of gain, are notes.
 /// @throws InputError where an angle cannot be the stated one.
 void check_sensors_agree(std::span<const RunReadings> runs, std::span<const SynchronousPart> parts,
-                         std::vector<std::string>& notes) {
+                         double u_angle_rad, std::vector<std::string>& notes) {
   std::vector<Diagnostic> wrong;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const RunReadings& run = runs[r];
@@ -40,7 +61,10 @@ void check_sensors_agree(std::span<const RunReadings> runs, std::span<const Sync
                                     static_cast<double>(run.angles_rad.size()));
     const std::complex<double> first = z(0, 1);
     const double blurred = times_motion * others / std::abs(first);
-    if (run.angles_rad.size() > 1 && blurred > noted_rad)
+    const auto seen_moving =
+        seen_angles(run.angles_rad, parts[r].asynchronous_mm, refused_rad / sure);
+    check_moving(run, seen_moving, u_angle_rad, wrong);
+    if (run.angles_rad.size() > 1 && blurred > noted_rad && seen_moving.empty())
       notes.push_back(
           2.0 * blurred > largest_shown_rad
               ? run.stream +
@@ -216,13 +240,6 @@ void expect_agreement(const JointEstimate& all, std::vector<RunReadings> runs,
                             "gains, and whether it is the same part"));
 }
 
-/// U of the synchronous value if every sensor's angle has an error of 1°.
-double U_per_degree(std::vector<RunReadings> runs, SpindleOptions options) {
-  options.u_angle_rad = rad_per_deg;
-  const JointEstimate all(std::move(runs), options);
-  return options.coverage_factor * range_estimate(all.series(all.layout().along())).u;
-}
-
 void add_notes(const JointEstimate& all, const SpindleOptions& options,
                std::vector<std::string>& notes) {
   const std::string which = all.axial() ? "axial: " : "";
@@ -270,7 +287,7 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
 ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& options,
                          std::vector<std::string>& notes) {
   const JointEstimate all(runs, options);
-  if (!all.axial()) check_sensors_agree(all.runs(), all.parts(), notes);
+  if (!all.axial()) check_sensors_agree(all.runs(), all.parts(), options.u_angle_rad, notes);
   expect_agreement(all, runs, options);
   const Layout& layout = all.layout();
   ErrorMotion out;
@@ -287,11 +304,11 @@ ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& op
   out.disagreement = all.disagreement();
   out.polar = polar_of(all, motion, form);
   add_notes(all, options, notes);
-  if (options.u_angle_rad == 0.0 && !all.axial() && layout.has_across())
+  if (options.u_angle_rad == default_u_angle_rad && !all.axial() && layout.has_across())
     notes.push_back(fmt::format(
-        "the sensors' angles are treated as exact; with a standard uncertainty of 1° for each, U "
-        "of the synchronous value would be {:.2g} µm: state theirs (--u-angle-deg)",
-        U_per_degree(std::move(runs), options) / mm_per_um));
+        "U includes a standard uncertainty of {:g}° of each sensor's angle, because none is "
+        "stated: state theirs (--u-angle-deg, 0 for exact angles)",
+        default_u_angle_rad / rad_per_deg));
   return out;
 }
 

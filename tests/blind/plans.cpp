@@ -196,6 +196,7 @@ std::optional<Scenario> with_measurement(Scenario scenario, std::string_view cod
   } else if (code == "RE") {
     setup = as_it_is;
     setup.number = next, setup.rear = !as_it_is.rear;
+    plan.passes.push_back(in_setup(back, next));
     in_new_setup(setup);
   } else if (code == "OZ") {
     setup = clamped_anew(next, 1);

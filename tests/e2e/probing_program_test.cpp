@@ -191,7 +191,7 @@ TEST_F(ProbingProgram, AProbeThatCannotReadTheBestPlanDrivesTheNextBest) {
   const std::string program = read_text(folder_ / "p.mpf");
   EXPECT_FALSE(contains(program, "probe back at 151 rpm")) << program;  // two speeds
   EXPECT_FALSE(contains(program, "spindle reversed")) << program;
-  EXPECT_TRUE(contains(program, "probe again from the rear side")) << program;
+  EXPECT_TRUE(contains(program, "from the rear side, from Z -10 to -30 mm and back")) << program;
   EXPECT_EQ(command(advise + "linuxcnc -o p.ngc").exit_code, 2);  // no limits
   EXPECT_EQ(command(advise + "linuxcnc --limits limits.toml").exit_code, 2);
   const CommandStreams unknown = command(advise + "part.nc --limits limits.toml -o p.ngc");

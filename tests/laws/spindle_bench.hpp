@@ -17,6 +17,13 @@ namespace trueaxis::laws {
 /// a_n exp(−iφ_n) of a_n cos(n α − φ_n), by order.
 using TrueSeries = std::vector<std::complex<double>>;
 
+/// The bench has its sensors where it states them.
+inline SpindleOptions exact_angles() {
+  SpindleOptions options;
+  options.u_angle_rad = 0.0;
+  return options;
+}
+
 /// A cylinder of radius 20 mm, off-centre, with a form and a spindle with radial motion along X and
 /// Y. Every order from 2 to `top` is there, sizes falling with the order, phases drawn.
 struct SpindleBench {
@@ -83,7 +90,7 @@ struct SpindleBench {
   }
 
   ProbeStream stream() const { return virtual_lathe::simulate(scenario); }
-  SpindleResult separate(const SpindleOptions& options = {}) const {
+  SpindleResult separate(const SpindleOptions& options = exact_angles()) const {
     const ProbeStream one = stream();
     return separate_spindle({&one, 1}, options);
   }

@@ -233,7 +233,7 @@ TEST(SpindleLaw, UncertaintiesCoverUnderCorrelatedMotionAndNoise) {
   bench.sensors_deg({0, 61, 128, 229});
   bench.passes({1}, 24.0, 128.0);
   const Recordings recordings(bench, 30.0 * nm, 100.0 * nm);
-  SpindleOptions options;
+  SpindleOptions options = exact_angles();
   options.order_max = 40;
   const ProbeStream clean = bench.stream();
   const SpindleResult truth = separate_spindle({&clean, 1}, options);
@@ -280,7 +280,7 @@ TEST(SpindleLaw, AnAngleThatIsOffByItsUncertaintyIsCovered) {
     bench.scenario.noise.sigma_mm = 20.0 * nm;
     ProbeStream stream = bench.stream();
     stream.sensor_angles_rad = {0.0, 99 * rad_per_deg, 202 * rad_per_deg};
-    SpindleOptions options;
+    SpindleOptions options = exact_angles();
     options.u_angle_rad = 0.05 * rad_per_deg;
     options.largest_condition = 20.0;
     const SpindleResult result = separate_spindle({&stream, 1}, options);
@@ -300,7 +300,7 @@ TEST(SpindleLaw, AReIndexingThatIsOffByItsUncertaintyIsCovered) {
   bench.setup(2, 180.03, true);
   ProbeStream stream = bench.stream();
   stream.setups[1].reindex_rad = 180.0 * rad_per_deg;
-  SpindleOptions options;
+  SpindleOptions options = exact_angles();
   options.u_reindex_rad = 0.03 * rad_per_deg;
   const SpindleResult result = separate_spindle({&stream, 1}, options);
   for (const SeparatedOrder& one : result.radial->orders) {
@@ -317,7 +317,7 @@ TEST(SpindleLaw, AnOrderSuppressedForItsNoiseIsNoContradiction) {
   bench.sensors_deg({0, 55, 113.2});
   bench.passes({1}, 5.0, 128.3);
   bench.scenario.noise.sigma_mm = 100.0 * nm;
-  SpindleOptions options;
+  SpindleOptions options = exact_angles();
   options.order_max = 40;
   const SpindleResult result = bench.separate(options);
   int suppressed = 0;
@@ -341,7 +341,7 @@ TEST(SpindleLaw, ExchangedSensorsAreTheSameSpindle) {
   ProbeStream exchanged = stream;
   std::swap(exchanged.reading_mm, exchanged.more_reading_mm[1]);
   std::swap(exchanged.sensor_angles_rad[0], exchanged.sensor_angles_rad[2]);
-  SpindleOptions options;
+  SpindleOptions options = exact_angles();
   options.order_max = 60;
   const auto a = separate_spindle({&stream, 1}, options).radial->orders;
   const auto b = separate_spindle({&exchanged, 1}, options).radial->orders;
@@ -366,7 +366,7 @@ TEST(SpindleLaw, SensorsTurnedTogetherTurnTheMotionAndLeaveTheForm) {
   ProbeStream turned = stream;  // every sensor meets the same point of the part as before
   for (double& angle : turned.sensor_angles_rad) angle += turn_rad;
   for (double& c : turned.c_rad) c -= turn_rad;
-  SpindleOptions options;
+  SpindleOptions options = exact_angles();
   options.order_max = 60;
   const auto a = separate_spindle({&stream, 1}, options).radial->orders;
   options.sensitive_rad = turn_rad;

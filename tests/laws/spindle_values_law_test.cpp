@@ -63,7 +63,7 @@ TEST(SpindleValuesLaw, OnTheAxisTheFundamentalAxialMotionIsTwiceItsAmplitude) {
   scenario.effects = {motion("spindle.axial_synchronous", 1.0, a),
                       motion("spindle.axial_synchronous", 3.0, b)};
   const ProbeStream stream = virtual_lathe::simulate(scenario);
-  const SpindleResult result = separate_spindle({&stream, 1});
+  const SpindleResult result = separate_spindle({&stream, 1}, exact_angles());
   ASSERT_TRUE(result.axial.has_value());
   EXPECT_FALSE(result.radial.has_value());
   EXPECT_NEAR(result.axial->fundamental.value, 2.0 * a, 1.0 * nm);
@@ -87,7 +87,7 @@ TEST(SpindleValuesLaw, OffTheAxisReIndexingTellsAxialMotionFromTheFace) {
     scenario.plan.passes.back().setup = number;
   }
   const ProbeStream stream = virtual_lathe::simulate(scenario);
-  const SpindleResult result = separate_spindle({&stream, 1});
+  const SpindleResult result = separate_spindle({&stream, 1}, exact_angles());
   EXPECT_NEAR(result.axial->sensitive.synchronous.value, 2.0 * a, 5.0 * nm);
   EXPECT_NEAR(result.axial->form.value, 2.0 * b, 5.0 * nm);
   EXPECT_FALSE(result.axial->fundamental.determined());
@@ -99,7 +99,7 @@ TEST(SpindleValuesLaw, TheAsynchronousUncertaintyIsHowMuchRecordingsDiffer) {
   bench.passes({1}, 16.0, 100.0);
   bench.scenario.effects.clear();
   bench.scenario.noise.sigma_mm = 1e-4;
-  SpindleOptions options;
+  SpindleOptions options = exact_angles();
   options.order_max = 10;
   std::vector<double> value, u;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

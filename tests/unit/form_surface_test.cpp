@@ -61,6 +61,23 @@ TEST(FormSurface, AStationIsAtTheTopOfLocalLobes) {
   EXPECT_NEAR(size_of(value_of(worst->values, "RONt", "MZCI")), expected, 0.04 * expected);
 }
 
+// 1.5 and 2.5 periods along Z, which the degrees follow to 30 nm and to 0.5 µm: it was 21.95 ±
+// 0.016 for 22. The lobes are as high everywhere, and the true CYLt is the range of both.
+TEST(FormSurface, ACourseThatNoDegreeFollowsIsInU) {
+  for (const double periods : {1.5, 2.5}) {
+    const auto course = [&](double c, double z) {
+      return 20.0 + 1e-3 * std::cos(3.0 * c) +
+             0.01 * std::cos(two_pi * periods * (z / length_mm - 0.5));
+    };
+    const FormResult result = assess_form(helix(course, 1e-4, 1), band(50.0));
+    const FormValue& cylindricity = of_whole(result, "CYLt", "MZCY");
+    const double expected = 0.02 + 0.002 * through(3.0, 50.0);
+    EXPECT_LE(least_of(cylindricity, 2.0), expected) << periods;
+    EXPECT_GE(most_of(cylindricity, 2.0), expected) << periods;
+    EXPECT_LT(cylindricity.estimate.u, 1e-3) << periods;
+  }
+}
+
 // Without noise the surface is the part: lobes that stay, through the filter. An eccentric circle
 // e = 20 µm is a circle all the same, its limaçon of e²/4R = 5 nm taken into account.
 TEST(FormSurface, LobesWithoutNoise) {

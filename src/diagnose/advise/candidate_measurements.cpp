@@ -270,7 +270,6 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
         Axis& axis = c.shape.axis;
         axis = {0.0, 0.0, -axis.slope_x + 5e-4, -axis.slope_y, axis.z_ref_mm};
       });
-  const bool behind = now.root == Root::rear;
   if (face && !point.two_sided) {
     add("RE",
         fmt::format("probe the other side of the axis, from X {:.6g} to {:.6g} mm",
@@ -278,9 +277,17 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
         pass_minutes, {{-m.z_end, -m.z_start, turns, m.seconds}}, nullptr);
   }
   if (!face) {
-    add("RE", behind ? "probe again from the front side" : "probe again from the rear side",
-        pass_minutes + minutes_to_turn_probe, same,
-        [&](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
+    // The same way along Z, a drift is a slide out of parallel; only back, it is a taper.
+    const char* side = now.root == Root::rear ? "front" : "rear";
+    std::vector<Motion> motions = same;
+    std::string what = fmt::format("probe again from the {} side", side);
+    if (along) {
+      motions.insert(motions.begin(), {m.z_end, m.z_start, turns, m.seconds});
+      what = fmt::format("probe from the {} side, from Z {:.6g} to {:.6g} mm and back", side,
+                         hundredths(m.z_end), hundredths(m.z_start));
+    }
+    add("RE", what, static_cast<double>(motions.size()) * pass_minutes + minutes_to_turn_probe,
+        motions, [](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
   }
   if (along && !face) {
     double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * point.z_half_mm;

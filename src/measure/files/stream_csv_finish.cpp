@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/number.hpp"
@@ -96,6 +97,26 @@ void take_set_ups(const CsvHeader& header, const CsvKnownMetadata& known, ProbeS
                         : name +
                               " has no reading, as there is no column setup: add the column, or "
                               "remove it");
+  }
+}
+
+/// A side that is stated as the front, and a reading less than 0, which the rear has.
+void expect_front(const CsvKnownMetadata& known, const ProbeStream& stream,
+                  CsvDiagnostics& diagnostics) {
+  if (stream.kind == StreamKind::face || stream.indication == Indication::relative) return;
+  for (const auto& [number, place] : known.set_up_places) {
+    const std::string key = "setup." + std::to_string(number) + ".side";
+    const auto stated = stream.metadata.find(key);
+    if (stated == stream.metadata.end() || stated->second != "front") continue;
+    double largest_mm = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < stream.size(); ++i)
+      if (stream.setup.empty() || stream.setup[i] == number)
+        largest_mm = std::max(largest_mm, stream.reading_mm[i]);
+    if (!(largest_mm < 0.0)) continue;
+    diagnostics.add(place.line, place.column,
+                    key +
+                        " is front, but every X_M of the set-up is negative, as on the rear side "
+                        "of the spindle axis: correct one");
   }
 }
 
@@ -258,6 +279,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   refuse_mistaken_sense(header, stream, diagnostics);
   stream.metadata = metadata.metadata;
   take_set_ups(header, known, stream, diagnostics);
+  expect_front(known, stream, diagnostics);
 }
 
 }  // namespace trueaxis

@@ -13,7 +13,7 @@ void read_sensor(TomlTable table, SpindleJob& job) {
   for (double& angle : degrees) angle /= rad_per_deg;
   const std::string trouble = csv_sensor_angles_trouble(degrees);
   if (!trouble.empty()) table.complain("angles_rad", trouble);
-  job.options.u_angle_rad = table.number("u_angle_rad", 0.0, Range::non_negative());
+  job.options.u_angle_rad = table.number("u_angle_rad", default_u_angle_rad, Range::non_negative());
   job.options.u_reindex_rad = table.number("u_reindex_rad", 0.0, Range::non_negative());
 }
 
