@@ -212,6 +212,16 @@ TEST(FitMisreading, WhatIsReadOtherwiseGoesRound) {
   }
 }
 
+// If there is no surface at all, all of the readings are residuals.
+TEST(FitMisreading, WithoutASurfaceTheReadingsAreLeft) {
+  ProbeStream stream;
+  stream.reading_mm = {3.0, 5.0, 10.0};
+  EXPECT_NEAR(left_mm(stream, {}), std::sqrt((9.0 + 1.0 + 16.0) / 3.0), 1e-15);
+  FitResult fit;
+  fit.residual_mm = {0.1, -0.1, 0.1}, fit.rms_mm = 0.1;
+  EXPECT_EQ(left_mm(stream, fit), 0.1);
+}
+
 TEST(FitMisreading, ColumnsAreExchanged) {
   const ProbeStream right = run_out();
   ProbeStream stream = right;
