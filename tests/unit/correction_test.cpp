@@ -239,5 +239,25 @@ TEST(Correction, ATargetThatTheToolMissesIsRefused) {
   EXPECT_THROW(make_correction(tilted_axis(), cylinder(), setup, {}), Refusal);
 }
 
+// The nose of 0.4 mm about its centre stays on this side of a shoulder, at either end of a cut that
+// is overrun by 0.2 mm.
+TEST(Correction, TheNoseStaysBeforeAShoulder) {
+  for (const bool backwards : {false, true})
+    for (const auto& [shoulder_mm, fits] :
+         {std::pair{2.61, true}, {2.59, false}, {-0.41, true}, {-0.39, false}, {1.0, false}}) {
+      TargetSurface target = cylinder();
+      target.overrun_mm = 0.2;
+      target.shoulder_mm = shoulder_mm;
+      if (backwards) {
+        std::swap(target.z_start_mm, target.z_end_mm);
+        target.shoulder_mm = 2.0 - shoulder_mm;
+      }
+      if (fits)
+        EXPECT_NO_THROW(make_correction({}, target, tool(), {})) << shoulder_mm;
+      else
+        EXPECT_THROW(make_correction({}, target, tool(), {}), Refusal) << shoulder_mm;
+    }
+}
+
 }  // namespace
 }  // namespace trueaxis

@@ -215,6 +215,11 @@ TEST(SphereTorus, AreFittedAndNotDiagnosedAndTakeNoGauge) {
   const Diagnosis diagnosis = diagnose(stream, options);
   EXPECT_TRUE(diagnosis.findings.empty());
   EXPECT_NE(diagnosis.noise.note.find("a sphere is fitted and not diagnosed"), std::string::npos);
+  EXPECT_NO_THROW(fit(stream, options.fit));
+  stream.setup.assign(stream.size(), 1), stream.setup.back() = 2;
+  stream.setups.push_back({.number = 2});
+  EXPECT_THROW(fit(stream, options.fit), InputError) << "a stream for each set-up";
+  stream = sphere(25.0);
   stream.indication = Indication::relative;
   stream.nominal_radius_mm = 25.0;
   EXPECT_THROW(fit(stream, options.fit), InputError);
