@@ -92,6 +92,22 @@ TEST(MisreadColumns, TheReadingTurnsOncePerRevolution) {
   }
 }
 
+// What goes once per revolution with a ninth of the square or more is an eccentricity, and no other
+// wave is then the revolution.
+TEST(MisreadColumns, AnEccentricityIsNoOtherWave) {
+  for (const double share : {0.095, 0.125}) {
+    ProbeStream stream = run_out();
+    for (std::size_t i = 0; i < stream.size(); ++i) {
+      const double c = stream.c_rad[i];
+      stream.reading_mm[i] = 20.0 + 0.02 * (std::sqrt(share) * std::cos(c) +
+                                            std::sqrt(1.0 - share) * std::cos(1.371 * c));
+    }
+    turn_as_reading_does(stream);
+    const double turned = stream.c_rad.back() / run_out().c_rad.back();
+    EXPECT_NEAR(turned, share < 1.0 / 9.0 ? 1.371 : 1.0, 2e-3) << share;
+  }
+}
+
 // An ordinary stream and one whose largest wave is lobes.
 TEST(MisreadColumns, LobesAreNotTurns) {
   ProbeStream stream = run_out();

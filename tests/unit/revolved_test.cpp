@@ -128,6 +128,39 @@ TEST(Intersect, SteepConesOpenEitherWayAndTheMirroredNappeIsRejected) {
   }
 }
 
+// Through every point of a cone goes a line that meets the cone: there, or still farther out.
+TEST(Intersect, MeetsEveryPointOfACone) {
+  std::mt19937 random(20240612);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int there = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = std::tan(uniform(-80.0, 80.0) * pi / 180.0);
+    const double lx = uniform(-0.3, 0.3), ly = uniform(-0.3, 0.3), n = std::hypot(1.0, lx, ly);
+    const Revolved cone{{uniform(-9, 9), uniform(-9, 9), lx, ly, 20.0}, uniform(5, 60), t};
+    // From the axis at height s by the radius there, at right angles to it.
+    const double s = uniform(-50, 50), radius = cone.radius_mm + t * s, turned = uniform(-pi, pi);
+    if (radius < 1.0) continue;
+    const double e[3] = {1.0 / std::hypot(1.0, lx), 0.0, -lx / std::hypot(1.0, lx)};
+    const double d[3] = {lx / n, ly / n, 1.0 / n};
+    const double f[3] = {d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2],
+                         d[0] * e[1] - d[1] * e[0]};
+    double p[3] = {cone.axis.x_mm, cone.axis.y_mm, 20.0};
+    for (int k = 0; k < 3; ++k)
+      p[k] += s * d[k] + radius * (std::cos(turned) * e[k] + std::sin(turned) * f[k]);
+    const double x = std::hypot(p[0], p[1]), c = std::atan2(p[1], p[0]);
+    const Intersection front = intersect(cone, c, p[2]);
+    const Intersection rear = intersect(cone, c, p[2], 0.0, Root::rear);
+    const double rounding = 1e-6 * (1.0 + std::abs(t));  // √ε where the line grazes
+    ASSERT_TRUE(front.hit && rear.hit) << i;
+    EXPECT_GE(front.x_mm, x - rounding * x) << i;
+    EXPECT_LE(rear.x_mm, x + rounding * x) << i;
+    there += std::min(std::abs(front.x_mm - x), std::abs(rear.x_mm - x)) < rounding * x;
+  }
+  EXPECT_GT(there, 2000);
+}
+
 TEST(Intersect, ALineBesideTheSurfaceDoesNotHit) {
   const Revolved cylinder{{0, 0, 0, 0, 0}, 10.0, 0.0};
   EXPECT_FALSE(intersect(cylinder, 0.3, 0.0, 10.5).hit);

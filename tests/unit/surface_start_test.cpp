@@ -184,5 +184,30 @@ TEST(OwnSurfaceProfile, AConeHasTheNumbersOfACone) {
   }
 }
 
+// A sphere of 25 mm whose centre is at (1.3, −0.7, 55), by its own closed form. The start is exact.
+TEST(SurfaceSphere, ItsNumbersAreThoseOfTheSphere) {
+  for (const Root root : {Root::front, Root::rear}) {
+    SurfaceFrame frame;
+    frame.position_ref_mm = 52.0, frame.half_length_mm = 15.0, frame.root = root;
+    const std::vector<double> working{1.3, -0.7, 55.0, 25.0};
+    LevelReadings at({{0.0, 0.0, 0.0, 0.0, 55.0}, 25.0, 0.0});
+    for (std::size_t i = 0; i < at.x.size(); ++i) {
+      at.z[i] = 55.0 + 0.5 * (at.z[i] - 55.0);
+      const double along = 1.3 * at.cos_c[i] - 0.7 * at.sin_c[i];
+      const double across = -0.7 * at.cos_c[i] - 1.3 * at.sin_c[i];
+      const double deep = std::sqrt(25.0 * 25.0 - across * across - std::pow(at.z[i] - 55.0, 2));
+      at.x[i] = along + (root == Root::front ? deep : -deep);
+    }
+    const auto sphere = catalogue_entry(SurfaceKind::sphere).make(frame);
+    const std::vector<double> start = sphere->start(at.block(), 240);
+    ASSERT_EQ(start.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(start[i], working[i], 1e-10) << i;
+    expect_derivatives(*sphere, working, at);
+    // Its axis is the spindle's direction through its centre.
+    const std::vector<double> expected{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    EXPECT_EQ(sphere->axis_jacobian(working), expected);
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis
