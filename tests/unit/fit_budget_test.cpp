@@ -167,7 +167,10 @@ TEST(FitDerived, OffsetsAndTiltAreThoseOfTheAxis) {
     centred.reading_mm[i] = 25.0 + 0.12 * (centred.position_mm[i] - 20.0);
   FitOptions options;
   options.noise_mm = 2e-3;
-  for (const ProbeStream& stream : {cone({}), centred}) {
+  ProbeStream round = centred;  // a cylinder
+  for (double& x : round.reading_mm) x = 25.0;
+  for (const ProbeStream& stream : {cone({}), centred, round}) {
+    if (stream.reading_mm == round.reading_mm) options.surface = SurfaceKind::cylinder;
     const FitResult found = fit(stream, options);
     ASSERT_EQ(found.status, FitStatus::converged) << found.message;
     const Axis& axis = found.axis.axis;
@@ -186,8 +189,18 @@ TEST(FitDerived, OffsetsAndTiltAreThoseOfTheAxis) {
     EXPECT_NEAR(found.parameter("tilt").value, std::atan(slope.norm()), 1e-15);
     EXPECT_NEAR(found.parameter("tilt").u, u_of_length(slope, covariance.bottomRightCorner<2, 2>()),
                 1e-12);
-    EXPECT_EQ(found.parameter("radius_mid").value, found.shape.radius_mm);
+    const bool is_cone = options.surface == SurfaceKind::cone;
+    EXPECT_EQ(found.derived.size(), is_cone ? 4U : 3U);
+    const std::string first = found.derived.front().name;
+    EXPECT_EQ(first, is_cone ? "radius_mid" : "offset_at_min_z");
+    if (is_cone) {
+      EXPECT_EQ(found.parameter("radius_mid").value, found.shape.radius_mm);
+    }
   }
+  options.surface = SurfaceKind::section;
+  const FitResult section = fit(round, options);
+  ASSERT_EQ(section.derived.size(), 1U) << "no direction";
+  EXPECT_EQ(section.derived.front().name, "eccentricity");
 }
 
 TEST(FitDerived, TheRmsOfATukeyLossIsOfWhatItKeeps) {
