@@ -174,6 +174,10 @@ TEST(OwnSurfaceProfile, AConeHasTheNumbersOfACone) {
       for (std::size_t j = 0; j < 6; ++j)
         EXPECT_NEAR(a.jacobian[6 * i + j], b.jacobian[6 * i + j], 1e-12) << i << ' ' << j;
     }
+    for (std::size_t i = 4; i < 6; ++i) {  // its own parameters are reported as they are
+      EXPECT_EQ(a.value[i], of_own[i]);
+      for (std::size_t j = 0; j < 6; ++j) EXPECT_EQ(a.jacobian[6 * i + j], i == j ? 1.0 : 0.0);
+    }
     for (double c = 0.0; c < 6.0; c += 0.7) {
       const auto found = own->influences(of_own, c, 40.0 + c);
       const auto expected = cone->influences(of_cone, c, 40.0 + c);
@@ -182,6 +186,18 @@ TEST(OwnSurfaceProfile, AConeHasTheNumbersOfACone) {
       EXPECT_NEAR(found.position, expected.position, 1e-11);
     }
   }
+}
+
+// Z = 12 + 2e-3 x − 3e-3 y: its axis is its normal through the spindle's axis, where it meets it.
+TEST(SurfacePlane, ItsShapeIsItsAxis) {
+  const auto plane = catalogue_entry(SurfaceKind::plane).make({});
+  const std::vector<double> working{12.0, 2e-3, -3e-3};
+  const Revolved shape = plane->shape(working);
+  EXPECT_EQ(shape.radius_mm, 0.0);
+  EXPECT_EQ(shape.tan_half_angle, 0.0);
+  EXPECT_EQ(shape.axis.at(12.0), (std::array{0.0, 0.0}));
+  EXPECT_EQ(shape.axis.slope_x, -2e-3);
+  EXPECT_EQ(shape.axis.slope_y, 3e-3);
 }
 
 // A sphere of 25 mm whose centre is at (1.3, −0.7, 55), by its own closed form. The start is exact.
