@@ -49,7 +49,7 @@ TEST(Deviation, OfHeldValuesIsThatOfTheHold) {
   }
 }
 
-// An eccentricity that falls to nothing along the cut is most in the first revolution, where the
+// An eccentricity that falls to nothing along the cut is most in the first revolution. There the
 // chord over a row is (π/M)²/2 of it; half a revolution on it has fallen by 2.5 %.
 TEST(Deviation, LooksAtTheFirstRevolution) {
   constexpr int rows = 36;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "fit/associate.hpp"
 #include "fit/joint_model.hpp"
 #include "fit/moved.hpp"
 #include "fit/place_set_ups.hpp"
@@ -202,6 +203,52 @@ TEST(FitStart, ATiltIsOfOneClamping) {
     const bool here = part.clamping == 1;
     EXPECT_EQ(slopes(tilted), here ? std::pair(0.3, -0.2) : std::pair(0.0, 0.0));
     EXPECT_EQ(slopes(back), here ? std::pair(-0.3, 0.2) : std::pair(0.0, 0.0));
+  }
+}
+
+// Chips of 1 mm in a tenth of the readings: without them the start of a level cylinder is exact, up
+// to the rounding of squares of 20 mm over 0.1 mm.
+TEST(FitStart, OfARobustLossIsWithoutChips) {
+  ProbeStream stream = cylinder(400, 8.0, 0.1);
+  const auto is_chip = [](std::size_t i) { return i % 10 == 3; };
+  for (std::size_t i = 0; i < stream.size(); ++i) stream.reading_mm[i] += is_chip(i) ? 1.0 : 0.0;
+  const JointModel model(stream, place_set_ups(stream), catalogue_entry(SurfaceKind::cylinder), {});
+  std::vector<double> left_mm(model.size());
+  for (const Loss loss : {Loss::huber, Loss::tukey}) {
+    model.residuals(find_start(model, samples_of(model), loss), left_mm);
+    for (std::size_t i = 0; i < left_mm.size(); ++i)
+      ASSERT_NEAR(left_mm[i], is_chip(i) ? 1.0 : 0.0, 1e-9) << i;
+  }
+}
+
+// Where the slopes of Tukey's loss by its own formula are zero, here to a ten-millionth of the
+// noise. Its fourth differences err by (h/c)⁴ of a step h.
+TEST(FitMinimum, IsPolishedFarBelowTheNoise) {
+  constexpr double c_mm = 5e-3;
+  std::mt19937_64 random(44);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  ProbeStream stream = cylinder(400, 8.3, 0.1);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    stream.reading_mm[i] += normal(random) + (i % 10 == 3 ? 0.02 : 0.0);
+  const JointModel model(stream, place_set_ups(stream), catalogue_entry(SurfaceKind::cylinder), {});
+  Minimum found;
+  found.working = find_start(model, samples_of(model), Loss::tukey);
+  polish(model, {LossScale::Kind::tukey, c_mm}, found);
+  const std::vector<double> scale = model.scale_mm(found.working);
+  for (std::size_t j = 0; j < scale.size(); ++j) {
+    const double h = 1e-5 / scale[j];
+    const auto cost = [&](double steps) {
+      std::vector<double> there = found.working, left_mm(model.size());
+      there[j] += steps * h;
+      model.residuals(there, left_mm);
+      double sum = 0.0;
+      for (const double r : left_mm)
+        sum += 1.0 - std::pow(1.0 - std::min(1.0, r * r / (c_mm * c_mm)), 3);
+      return sum;
+    };
+    const double slope = (8.0 * (cost(1.0) - cost(-1.0)) - cost(2.0) + cost(-2.0)) / 12.0;
+    const double bend = cost(1.0) - 2.0 * cost(0.0) + cost(-1.0);
+    EXPECT_NEAR(slope / bend * 1e-5, 0.0, 1e-10) << j;
   }
 }
 

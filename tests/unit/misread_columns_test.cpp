@@ -108,6 +108,23 @@ TEST(MisreadColumns, AnEccentricityIsNoOtherWave) {
   }
 }
 
+// A step of the search, a quarter of a turn over the stream, is what it tells from once per
+// revolution.
+TEST(MisreadColumns, ALineNextToOncePerRevolutionIsThat) {
+  constexpr double step = 0.25 / 20.0;
+  for (const double steps : {-1.4, -0.6, 0.6, 1.4}) {
+    const ProbeStream right = run_out();
+    ProbeStream stream = right;
+    for (double& c : stream.c_rad) c /= 1.0 + steps * step;
+    const std::vector<double> before = stream.c_rad;
+    turn_as_reading_does(stream);
+    if (std::abs(steps) < 1.0)
+      EXPECT_EQ(stream.c_rad, before) << steps;
+    else
+      EXPECT_NEAR(stream.c_rad.back() / right.c_rad.back(), 1.0, 5e-4) << steps;
+  }
+}
+
 // An ordinary stream and one whose largest wave is lobes.
 TEST(MisreadColumns, LobesAreNotTurns) {
   ProbeStream stream = run_out();
