@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
+#include "surface/revolved_kernel.hpp"
 #include "trueaxis/surface.hpp"
 
 namespace trueaxis {
@@ -159,6 +162,29 @@ TEST(Intersect, MeetsEveryPointOfACone) {
     there += std::min(std::abs(front.x_mm - x), std::abs(rear.x_mm - x)) < rounding * x;
   }
   EXPECT_GT(there, 2000);
+}
+
+// If a cylinder is about the spindle √disc is r: the column of the radius is 1 to some bits, and
+// the residual of X_M = 0 is −r to the last bit. No instruction set's first estimate shows.
+TEST(RevolvedKernel, ItsRootIsExactToTheLastBit) {
+  constexpr double bit = std::numeric_limits<double>::epsilon();
+  std::vector<double> cosine, sine, z(block_size, 7.0), x(block_size, 0.0);
+  for (std::size_t i = 0; i < block_size; ++i)
+    cosine.push_back(std::cos(0.1 * static_cast<double>(i))),
+        sine.push_back(std::sin(0.1 * static_cast<double>(i)));
+  PredictionBlock out;
+  for (double radius = 10.0; radius < 41.0; radius += 0.037) {  // two octaves of r²
+    for (const Root root : {Root::front, Root::rear}) {
+      const double side = root == Root::front ? 1.0 : -1.0;
+      evaluate_revolved({{0.0, 0.0, 0.0, 0.0, 5.0}, radius, 0.0}, root, 0.0,
+                        {x.data(), cosine.data(), sine.data(), z.data()}, out);
+      ASSERT_TRUE(out.valid);
+      for (std::size_t i = 0; i < block_size; ++i) {
+        ASSERT_NEAR(out.column[w_r][i], side, 6.0 * bit) << radius;
+        ASSERT_NEAR(out.residual[i], -side * radius, 1.25 * bit * radius) << radius;
+      }
+    }
+  }
 }
 
 TEST(Intersect, ALineBesideTheSurfaceDoesNotHit) {

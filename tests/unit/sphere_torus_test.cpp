@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -205,6 +206,23 @@ TEST(SphereTorus, UncertaintiesAreThoseOfTheNoise) {
       EXPECT_GT(squares[p], low) << truth.parameters[p].name;
       EXPECT_LT(squares[p], high) << truth.parameters[p].name;
     }
+  }
+}
+
+// Tubes of half to twice the radius that touch each other in the middle of the section.
+TEST(Torus, FurtherStartsGoThroughTheSameMiddle) {
+  const auto surface = catalogue_entry(SurfaceKind::torus).make({});
+  for (const double tube : {4.0, -4.0}) {
+    const std::vector<double> level{0.1, -0.2, 0.0, 0.0, 31.0, 20.0, tube};
+    std::vector<double> tubes;
+    for (const std::vector<double>& one : surface->further_starts(level)) {
+      EXPECT_NEAR(one[5] + one[6], 20.0 + tube, 1e-12);
+      EXPECT_TRUE(std::equal(one.begin(), one.end() - 2, level.begin()));
+      tubes.push_back(one[6] / tube);
+    }
+    const auto [least, most] = std::ranges::minmax(tubes);
+    EXPECT_NEAR(least, 0.5, 1e-12);
+    EXPECT_NEAR(most, 2.0, 1e-12);
   }
 }
 
