@@ -221,6 +221,23 @@ TEST(FitStart, OfARobustLossIsWithoutChips) {
   }
 }
 
+// A robust loss passes over the readings for its scale, its minimum and the last digits, each at
+// least as often as a fit that starts at the plain minimum.
+TEST(FitMinimum, PassesOfAllStagesCount) {
+  std::mt19937_64 random(45);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  ProbeStream stream = cylinder(400, 8.3, 0.1);
+  for (double& x : stream.reading_mm) x += normal(random);
+  FitOptions options = of_cylinder();
+  const int plain = fit(stream, options).iterations;
+  ASSERT_GT(plain, 0);
+  options.loss = Loss::huber;
+  const int huber = fit(stream, options).iterations;
+  EXPECT_GT(huber, plain);
+  options.loss = Loss::tukey;
+  EXPECT_GT(fit(stream, options).iterations, huber) << "it begins with Huber's";
+}
+
 // Where the slopes of Tukey's loss by its own formula are zero, here to a ten-millionth of the
 // noise. Its fourth differences err by (h/c)⁴ of a step h.
 TEST(FitMinimum, IsPolishedFarBelowTheNoise) {
