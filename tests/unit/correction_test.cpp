@@ -259,5 +259,25 @@ TEST(Correction, TheNoseStaysBeforeAShoulder) {
     }
 }
 
+// In the last revolution there is no feed, and the amplitude of the tilted axis is constant. The
+// command is then what was wanted over response and interpolation (Eqs. 114, 115).
+TEST(Correction, WithoutFeedTheCommandHasNoRate) {
+  const Actuator actuator;
+  const ToolSetup setup;
+  const AxisEstimate tilted{{0.3, 0.0, 0.0, 8e-3, 0.0}, {}};
+  const CorrectionRows rows = make_correction(tilted, cylinder(), setup, actuator).rows;
+  const auto per_rev = static_cast<std::size_t>(setup.rows_per_revolution);
+  const std::size_t count = rows.wanted_mm.size();
+  ASSERT_EQ(rows.position_mm[count - per_rev], rows.position_mm.back());
+  std::complex<double> wanted, command;
+  for (std::size_t i = count - per_rev; i < count; ++i) {
+    wanted += rows.wanted_mm[i] * std::polar(1.0, -rows.c_rad[i]);
+    command += rows.command_mm[i] * std::polar(1.0, -rows.c_rad[i]);
+  }
+  const double x = pi / setup.rows_per_revolution, kept = std::pow(std::sin(x) / x, 2);
+  const std::complex<double> expected = 1.0 / (kept * actuator.response(setup.speed_rpm / 60.0));
+  EXPECT_LT(std::abs(command / wanted - expected), 1e-8);
+}
+
 }  // namespace
 }  // namespace trueaxis
