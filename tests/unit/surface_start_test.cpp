@@ -86,6 +86,46 @@ TEST(RevolvedStart, IsNearASurfaceThatLeans) {
   }
 }
 
+// A cone that nearly ends within the length is blunted to 0.9 of the radius over half of it. The
+// axis is pulled in to 0.8 of the least radius.
+TEST(RevolvedStart, LevelLeavesRoomAroundTheSpindle) {
+  constexpr double half_mm = 30.0, radius_mm = 40.0;
+  SurfaceFrame frame;
+  frame.position_ref_mm = 55.0, frame.half_length_mm = half_mm;
+  const auto cone = catalogue_entry(SurfaceKind::cone).make(frame);
+  const struct {
+    double x, y, steep, pulled, blunted;
+  } cases[] = {{0.5, -0.3, 0.95, 1.0, 0.9},
+               {-0.5, 0.3, -0.95, 1.0, -0.9},
+               {28.0, -21.0, 0.0, 0.8 * 40.0 / 35.0, 0.0},
+               {4.0, -3.0, 0.85, 0.8 * 6.0 / 5.0, 0.85}};
+  for (const auto& c : cases) {
+    const double per_mm = radius_mm / half_mm;
+    const LevelReadings readings({{c.x, c.y, 0.0, 0.0, 55.0}, radius_mm, c.steep * per_mm});
+    const auto start = cone->level_start(readings.block(), 240);
+    const double expected[] = {c.pulled * c.x, c.pulled * c.y,    0.0, 0.0,
+                               radius_mm,      c.blunted * per_mm};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(start[i], expected[i], 1e-9) << i;
+  }
+}
+
+// Its bend, (1 + t²) R times the slope, is then more than a tenth of half the length.
+TEST(RevolvedStart, ATiltMayBeMirroredOnAShortPart) {
+  SurfaceFrame frame;
+  frame.half_length_mm = 10.0;
+  const auto cylinder = catalogue_entry(SurfaceKind::cylinder).make(frame);
+  const auto cone = catalogue_entry(SurfaceKind::cone).make(frame);
+  for (const double share : {0.98, 1.02}) {
+    const double slope = share * 0.1 * 10.0 / 25.0;
+    const std::vector<double> of_cylinder{9.0, 9.0, 0.6 * slope, -0.8 * slope, 25.0};
+    const std::vector<double> of_cone{9.0, 9.0, -0.3 * slope, 0.4 * slope, 25.0, -1.0};
+    EXPECT_EQ(cylinder->tilt_may_be_mirrored(of_cylinder), share > 1.0);
+    EXPECT_EQ(cone->tilt_may_be_mirrored(of_cone), share > 1.0);
+  }
+  const auto section = catalogue_entry(SurfaceKind::section).make(frame);
+  EXPECT_FALSE(section->tilt_may_be_mirrored(std::vector{9.0, 9.0, 25.0}));
+}
+
 // What is reported, Eqs. 24 and 25, by differences of its own formulas: where the axis crosses
 // Z = 0, its direction, the apex and the half angle.
 TEST(SurfaceCatalogue, ReportedJacobianIsThatOfTheReportedNumbers) {
@@ -198,6 +238,22 @@ TEST(SurfacePlane, ItsShapeIsItsAxis) {
   EXPECT_EQ(shape.axis.at(12.0), (std::array{0.0, 0.0}));
   EXPECT_EQ(shape.axis.slope_x, -2e-3);
   EXPECT_EQ(shape.axis.slope_y, 3e-3);
+}
+
+// A shift of 1 mm, a slope over the radius, or over the farthest X of a face, a radius.
+TEST(SurfaceCatalogue, AUnitOfAParameterIsItsLengthOnTheSurface) {
+  SurfaceFrame frame;
+  frame.position_ref_mm = -20.0, frame.half_length_mm = 10.0;
+  const auto scale_of = [&](SurfaceKind kind, const std::vector<double>& working) {
+    return catalogue_entry(kind).make(frame)->working_scale_mm(working);
+  };
+  using Values = std::vector<double>;
+  EXPECT_EQ(scale_of(SurfaceKind::section, {0.1, 0.2, 25.0}), (Values{1, 1, 1}));
+  EXPECT_EQ(scale_of(SurfaceKind::cylinder, {0.1, 0.2, 0, 0, 25.0}), (Values{1, 1, 25, 25, 1}));
+  EXPECT_EQ(scale_of(SurfaceKind::cone, {0.1, 0.2, 0, 0, 25.0, 0.3}),
+            (Values{1, 1, 25, 25, 1, 25}));
+  EXPECT_EQ(scale_of(SurfaceKind::plane, {12.0, 1e-3, 2e-3}), (Values{1, 30, 30}));
+  EXPECT_EQ(scale_of(SurfaceKind::sphere, {0.1, 0.2, -21.0, 25.0}), (Values{1, 1, 1, 1}));
 }
 
 // A sphere of 25 mm whose centre is at (1.3, −0.7, 55), by its own closed form. The start is exact.
