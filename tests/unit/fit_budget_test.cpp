@@ -7,6 +7,7 @@
 #include <functional>
 #include <random>
 
+#include "fit/apex_interval.hpp"
 #include "fit/associate.hpp"
 #include "fit/uncertainty.hpp"
 #include "math/statistics.hpp"
@@ -314,6 +315,31 @@ TEST(FitUncertainty, AFreeDirectionIsNamedByItsParts) {
   EXPECT_EQ(named(0.6, -0.06, 0.8 / 25.0), "0.60 x - 0.06 y + 0.80 slope_x");
   EXPECT_EQ(named(0.6, 0.0, -0.8 / 25.0), "-0.60 x + 0.80 slope_x");
   EXPECT_EQ(named(1.2, 0.0, -1.6 / 25.0), "-0.60 x + 0.80 slope_x");
+}
+
+// Each end is k times the u away that the apex would have if it were there (Fieller): a move d of
+// it adds d times the u of ln tan α, which correlates with it. Nothing bounds it if that is 1/k.
+TEST(FitUncertainty, TheApexHasAnIntervalOfItsOwn) {
+  const double alpha = 0.2, relative = 1.0 / (std::tan(alpha) * std::pow(std::cos(alpha), 2));
+  for (const double u_ln : {0.1, 0.4, 0.49, 0.51}) {
+    const double u_angle = u_ln / relative, u_mm = 0.5, shared = -0.6 * u_mm * u_angle;
+    std::vector<FitParameter> parameters{{"half_angle", {alpha, u_angle, "rad", ""}},
+                                         {"k", {-120.0, u_mm, "mm", ""}}};
+    Covariance covariance({"half_angle", "k"});
+    const double of[] = {u_angle * u_angle, shared, shared, u_mm * u_mm};
+    std::copy_n(of, 4, covariance.data());
+    add_apex_interval(parameters, covariance, 2.0);
+    const auto& interval = parameters[1].estimate.interval;
+    ASSERT_EQ(interval.has_value(), u_ln < 0.5);
+    if (!interval) continue;
+    for (const double end : {(*interval)[0], (*interval)[1]}) {
+      const double d = end + 120.0;
+      const double variance = u_mm * u_mm - 2.0 * d * relative * shared + d * d * u_ln * u_ln;
+      EXPECT_NEAR(std::abs(d), 2.0 * std::sqrt(variance), 1e-9);
+    }
+    EXPECT_LT((*interval)[0], -120.0);
+    EXPECT_GT((*interval)[1], -120.0);
+  }
 }
 
 }  // namespace
