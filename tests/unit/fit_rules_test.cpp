@@ -10,6 +10,7 @@
 #include <random>
 
 #include "fit/associate.hpp"
+#include "fit/describe.hpp"
 #include "fit/joint_model.hpp"
 #include "fit/moved.hpp"
 #include "fit/place_set_ups.hpp"
@@ -58,6 +59,43 @@ TEST(FitUncertainty, OfAFewCorrelatedReadingsIsWiderByTheirCorrelation) {
   const double rho = found.autocorrelation;
   ASSERT_GT(rho * std::sqrt(48.0), 4.0);
   EXPECT_NEAR(found.u_factor, std::sqrt((1.0 + rho) / (1.0 - rho)), 1e-12);
+  const auto widened = [](const FitResult& of) {
+    return std::ranges::any_of(of.notes, [](const std::string& note) {
+      return note.find("TrueAxis widens every u") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(widened(found));
+  EXPECT_FALSE(widened(fit(cylinder(48, 2.3, 0.1), of_cylinder())));
+}
+
+// Two chips next to each other count as three σ each.
+TEST(FitUncertainty, ChipsHardlyCorrelate) {
+  std::mt19937_64 random(46);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  ProbeStream stream = cylinder(400, 8.3, 0.1);
+  for (double& x : stream.reading_mm) x += normal(random);
+  for (const std::size_t i : {50U, 51U, 200U, 201U, 300U, 301U}) stream.reading_mm[i] += 0.1;
+  const FitResult found = fit(stream, of_cylinder());
+  const double sigma_mm = found.rms_mm * std::sqrt(400.0 / 395.0);
+  double products = 0.0, squares = 0.0, before = 0.0;
+  for (const double left : found.residual_mm) {
+    const double r = std::clamp(left, -3.0 * sigma_mm, 3.0 * sigma_mm);
+    products += r * before, squares += r * r, before = r;
+  }
+  EXPECT_NEAR(found.autocorrelation, products / squares, 0.02);
+}
+
+// U of the radius, or of the one in the middle of a cone; 0 if there is none.
+TEST(FitNotes, URadiusIsThatOfTheRadius) {
+  FitResult found;
+  found.coverage_factor = 3.0;
+  EXPECT_EQ(radius_U_mm(found), 0.0);
+  found.parameters = {{"x0", {1.0, 7.0, "mm", ""}}, {"radius", {1.0, std::nan(""), "mm", ""}}};
+  EXPECT_EQ(radius_U_mm(found), 0.0);
+  found.parameters.back().estimate.u = 0.5;
+  EXPECT_EQ(radius_U_mm(found), 1.5);
+  found.derived = {{"radius_mid", {1.0, 0.25, "mm", ""}}};
+  EXPECT_EQ(radius_U_mm(found), 0.75);
 }
 
 /// What "noise of C" adds to u of the axis' place.
