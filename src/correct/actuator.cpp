@@ -63,7 +63,6 @@ double cubic(const std::vector<LogResponse>& at, std::size_t i, double frequency
 /// 0 Hz, beyond the last the gain stays and the phase goes on.
 Complex by_straight_lines(const std::vector<ResponsePoint>& points, double frequency_hz) {
   ResponsePoint low{.gain = points.front().gain}, high = low;
-  double slope = 0.0;
   for (const ResponsePoint& point : points) {
     if (point.frequency_hz <= 0.0) {
       low.gain = high.gain = point.gain;
@@ -72,9 +71,9 @@ Complex by_straight_lines(const std::vector<ResponsePoint>& points, double frequ
     low = high;
     high = point;
     high.phase_rad = low.phase_rad + std::remainder(point.phase_rad - low.phase_rad, two_pi);
-    slope = (high.phase_rad - low.phase_rad) / (high.frequency_hz - low.frequency_hz);
     if (frequency_hz <= point.frequency_hz) break;
   }
+  const double slope = (high.phase_rad - low.phase_rad) / (high.frequency_hz - low.frequency_hz);
   const double phase = high.phase_rad + slope * (frequency_hz - high.frequency_hz);
   if (frequency_hz >= high.frequency_hz) return std::polar(high.gain, phase);
   const double share = (frequency_hz - low.frequency_hz) / (high.frequency_hz - low.frequency_hz);

@@ -239,10 +239,9 @@ Association associate(const JointModel& model, Loss loss, int max_iterations) {
       sigma = next;
     }
   }
+  association.minimum.iterations = iterations;
   if (association.minimum.normal.valid) {
-    const int before = association.minimum.iterations;
     polish(model, association.loss, association.minimum);
-    iterations += association.minimum.iterations - before;
     model.residuals(association.minimum.working, association.residual_mm);
   }
   if (association.minimum.working.empty()) {  // more than half of the residuals are exactly zero
@@ -250,7 +249,6 @@ Association associate(const JointModel& model, Loss loss, int max_iterations) {
     association.minimum = minimise(model, std::move(start), {}, max_iterations);
     model.residuals(association.minimum.working, association.residual_mm);
   }
-  association.minimum.iterations = std::max(iterations, association.minimum.iterations);
   return association;
 }
 

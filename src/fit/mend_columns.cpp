@@ -43,7 +43,7 @@ struct Wave {
     }
     for (std::size_t i = 0; i < n; ++i) {
       cc += (c_rad[i] - c) * (c_rad[i] - c);
-      cx += (c_rad[i] - c) * (x_mm[i] - x);
+      cx += (c_rad[i] - c) * x_mm[i];
     }
     const double slope = cc > 0.0 ? cx / cc : 0.0;
     for (std::size_t i = 0; i < n; ++i) x_mm[i] -= x + slope * (c_rad[i] - c);
@@ -130,7 +130,6 @@ void turn_as_reading_does(ProbeStream& stream) {
     most = power;
     best = order;
   }
-  if (std::abs(best - 1.0) < 0.5 * step) return;
   for (double width = 0.5 * step; width > 1e-6; width *= 0.5)
     for (const double order : {best - width, best + width})
       if (const double power = wave.power(order); power > most) {

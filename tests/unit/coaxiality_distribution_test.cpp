@@ -58,6 +58,19 @@ TEST(CoaxialityDistribution, OfSomethingLeftIsRice) {
   }
 }
 
+// Where both are does not matter, nor how both lean.
+TEST(CoaxialityDistribution, IsOfTheDifferenceOfReferenceAndTarget) {
+  const double u = 1e-3;
+  Reference there = seat(u, u, 2e-5), here = there;
+  here.axis.axis = {2e-3, -1e-3, 1e-5, 3e-5, 0.0};
+  there.axis.axis = {2e-3 + 0.4, -1e-3 + 0.3, 1e-5 + 2e-3, 3e-5 - 1e-3, 0.0};
+  const Axis target{0.4, 0.3, 2e-3, -1e-3, 0.0};
+  for (const double p : {0.05, 0.5, 0.95})
+    EXPECT_NEAR(quantile(there, target, p, 10.0, 40.0), quantile(here, {}, p, 10.0, 40.0), 1e-12);
+  here.face_radius_mm = there.face_radius_mm = 30.0;
+  EXPECT_NEAR(quantile(there, target, 0.95), quantile(here, {}, 0.95), 1e-12);
+}
+
 TEST(CoaxialityDistribution, OfTheWorseOfTwoReferencesIsTheProductOfTheirs) {
   const double u = 1e-3;
   const Reference both[] = {seat(u, u), seat(u, u)};

@@ -323,6 +323,8 @@ TEST(ControlTables, EachHasItsLargest) {
       {beckhoff_crosscomp2, 1.0, 2.0, 0.5, 360, "has one interval for both axes"},
       {beckhoff_crosscomp2, 1.2, 1.2, 0.5, 360, ""},
       {grid, 7.0, 5.0, 0.5, 360, "does not divide a revolution"},
+      {grid, 90.0, 5.0, 0.5, 360, ""},
+      {grid, 120.0, 5.0, 0.5, 360, "does not divide a revolution"},
   };
   for (const Edge& edge : edges) {
     const std::string found =

@@ -239,5 +239,45 @@ TEST(Correction, ATargetThatTheToolMissesIsRefused) {
   EXPECT_THROW(make_correction(tilted_axis(), cylinder(), setup, {}), Refusal);
 }
 
+// The nose of 0.4 mm about its centre stays on this side of a shoulder, at either end of a cut that
+// is overrun by 0.2 mm.
+TEST(Correction, TheNoseStaysBeforeAShoulder) {
+  for (const bool backwards : {false, true})
+    for (const auto& [shoulder_mm, fits] :
+         {std::pair{2.61, true}, {2.59, false}, {-0.41, true}, {-0.39, false}, {1.0, false}}) {
+      TargetSurface target = cylinder();
+      target.overrun_mm = 0.2;
+      target.shoulder_mm = shoulder_mm;
+      if (backwards) {
+        std::swap(target.z_start_mm, target.z_end_mm);
+        target.shoulder_mm = 2.0 - shoulder_mm;
+      }
+      if (fits)
+        EXPECT_NO_THROW(make_correction({}, target, tool(), {})) << shoulder_mm;
+      else
+        EXPECT_THROW(make_correction({}, target, tool(), {}), Refusal) << shoulder_mm;
+    }
+}
+
+// In the last revolution there is no feed, and the amplitude of the tilted axis is constant. The
+// command is then what was wanted over response and interpolation (Eqs. 114, 115).
+TEST(Correction, WithoutFeedTheCommandHasNoRate) {
+  const Actuator actuator;
+  const ToolSetup setup;
+  const AxisEstimate tilted{{0.3, 0.0, 0.0, 8e-3, 0.0}, {}};
+  const CorrectionRows rows = make_correction(tilted, cylinder(), setup, actuator).rows;
+  const auto per_rev = static_cast<std::size_t>(setup.rows_per_revolution);
+  const std::size_t count = rows.wanted_mm.size();
+  ASSERT_EQ(rows.position_mm[count - per_rev], rows.position_mm.back());
+  std::complex<double> wanted, command;
+  for (std::size_t i = count - per_rev; i < count; ++i) {
+    wanted += rows.wanted_mm[i] * std::polar(1.0, -rows.c_rad[i]);
+    command += rows.command_mm[i] * std::polar(1.0, -rows.c_rad[i]);
+  }
+  const double x = pi / setup.rows_per_revolution, kept = std::pow(std::sin(x) / x, 2);
+  const std::complex<double> expected = 1.0 / (kept * actuator.response(setup.speed_rpm / 60.0));
+  EXPECT_LT(std::abs(command / wanted - expected), 1e-8);
+}
+
 }  // namespace
 }  // namespace trueaxis

@@ -49,6 +49,19 @@ TEST(Deviation, OfHeldValuesIsThatOfTheHold) {
   }
 }
 
+// An eccentricity that falls to nothing along the cut is most in the first revolution. There the
+// chord over a row is (π/M)²/2 of it; half a revolution on it has fallen by 2.5 %.
+TEST(Deviation, LooksAtTheFirstRevolution) {
+  constexpr int rows = 36;
+  ToolSetup tool;
+  tool.rows_per_revolution = rows;
+  const TargetSurface cut{TargetKind::cylinder, false, 0.0, 2.0, 20.0, 0.0, 0.0, 0.0, 0.0};
+  const Correction falls =
+      make_correction({{off_axis_mm, 0.0, -0.5 * off_axis_mm, 0.0, 0.0}, {}}, cut, tool, {});
+  const double half = std::numbers::pi / rows, chord_mm = 0.5 * half * half * off_axis_mm;
+  EXPECT_NEAR(falls.between_rows.largest_mm, chord_mm, 0.01 * chord_mm);
+}
+
 // The deviation falls with the rows, that of straight lines with their square: by 0.3 % and more
 // for one row of 360.
 TEST(Deviation, OneRowMoreIsAskedForWhereThatDoes) {

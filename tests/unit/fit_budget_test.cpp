@@ -7,6 +7,7 @@
 #include <functional>
 #include <random>
 
+#include "fit/apex_interval.hpp"
 #include "fit/associate.hpp"
 #include "fit/uncertainty.hpp"
 #include "math/statistics.hpp"
@@ -167,7 +168,10 @@ TEST(FitDerived, OffsetsAndTiltAreThoseOfTheAxis) {
     centred.reading_mm[i] = 25.0 + 0.12 * (centred.position_mm[i] - 20.0);
   FitOptions options;
   options.noise_mm = 2e-3;
-  for (const ProbeStream& stream : {cone({}), centred}) {
+  ProbeStream round = centred;  // a cylinder
+  for (double& x : round.reading_mm) x = 25.0;
+  for (const ProbeStream& stream : {cone({}), centred, round}) {
+    if (stream.reading_mm == round.reading_mm) options.surface = SurfaceKind::cylinder;
     const FitResult found = fit(stream, options);
     ASSERT_EQ(found.status, FitStatus::converged) << found.message;
     const Axis& axis = found.axis.axis;
@@ -186,8 +190,18 @@ TEST(FitDerived, OffsetsAndTiltAreThoseOfTheAxis) {
     EXPECT_NEAR(found.parameter("tilt").value, std::atan(slope.norm()), 1e-15);
     EXPECT_NEAR(found.parameter("tilt").u, u_of_length(slope, covariance.bottomRightCorner<2, 2>()),
                 1e-12);
-    EXPECT_EQ(found.parameter("radius_mid").value, found.shape.radius_mm);
+    const bool is_cone = options.surface == SurfaceKind::cone;
+    EXPECT_EQ(found.derived.size(), is_cone ? 4U : 3U);
+    const std::string first = found.derived.front().name;
+    EXPECT_EQ(first, is_cone ? "radius_mid" : "offset_at_min_z");
+    if (is_cone) {
+      EXPECT_EQ(found.parameter("radius_mid").value, found.shape.radius_mm);
+    }
   }
+  options.surface = SurfaceKind::section;
+  const FitResult section = fit(round, options);
+  ASSERT_EQ(section.derived.size(), 1U) << "no direction";
+  EXPECT_EQ(section.derived.front().name, "eccentricity");
 }
 
 TEST(FitDerived, TheRmsOfATukeyLossIsOfWhatItKeeps) {
@@ -233,6 +247,99 @@ TEST(FitDerived, ABallThatIsTooLargeIsNotedWhereItIs) {
       << turned.notes.front();
   options.ball_radius_mm = 20.0;
   EXPECT_TRUE(fit(cone({}), options).notes.empty());
+}
+
+/// Two parameters, the second a slope at 25 mm, of which JᵀJ by mm is 1 and `value`.
+Determination determined(double value, const ReadingNoise& noise) {
+  const NormalMatrix normal{.parameters = 2, .jtj = {1.0, 0.0, 0.0, 625.0 * value}, .jtr = {0, 0}};
+  return determine(normal, {1.0, 25.0}, 25.0, noise, 2.0);
+}
+
+// Two u of 1 µm are a tenth of 25 mm at a value of (2e-3 / 2.5)². What widens u widens it there.
+TEST(FitUncertainty, ADirectionIsFreeFromATenthOfTheSize) {
+  const auto begins_at = [](double limit, const ReadingNoise& noise) {
+    const Determination more = determined(1.04 * limit, noise);
+    EXPECT_EQ(more.free_directions.cols(), 0);
+    EXPECT_NEAR(more.inverse(0, 0), 1.0, 1e-12);
+    EXPECT_NEAR(more.inverse(1, 1) * 625.0 * 1.04 * limit, 1.0, 1e-9);
+    const Determination less = determined(0.96 * limit, noise);
+    EXPECT_EQ(less.inverse(1, 1), 0.0);
+    return less.free_directions.cols() == 1 && less.free_directions(0, 0) == 0.0;
+  };
+  ReadingNoise noise;
+  noise.sigma_mm = 1e-3;
+  const double limit = 6.4e-7;
+  EXPECT_TRUE(begins_at(limit, noise));
+  noise.u_factor = 3.0;
+  EXPECT_TRUE(begins_at(9.0 * limit, noise));
+  for (const double sigma_mm : {0.0, std::nan("")}) {  // JᵀJ is singular to rounding
+    noise.sigma_mm = sigma_mm;
+    EXPECT_TRUE(begins_at(1e-14, noise));
+  }
+  for (const double value : {3.0, 5.0}) {  // JᵀCJ is 4 limits
+    noise.sigma_mm = 1e-3, noise.correlated.emplace();
+    noise.correlated->jtcj = Eigen::Vector2d(1.0, 625.0 * 4.0 * limit).asDiagonal();
+    EXPECT_EQ(determined(std::sqrt(value) * limit, noise).free_directions.cols(),
+              value < 4.0 ? 1 : 0);
+  }
+}
+
+// Correlation takes the trace of (JᵀJ)⁻¹ JᵀCJ of the freedom in the place of the parameters, but
+// leaves a tenth of it; the u of the first parameter is twice that of white noise.
+TEST(FitUncertainty, OfCorrelatedNoiseTakesFreedom) {
+  Determination two;
+  two.inverse = Eigen::Vector2d(0.5, 0.25).asDiagonal();
+  for (const auto& [redundancy, left] : {std::pair{10.0, 10.0 + 2.0 - 4.5}, {2.6, 0.26}}) {
+    ReadingNoise noise;
+    noise.sigma_mm = noise.shown_mm = 1e-3, noise.redundancy = redundancy;
+    noise.source = SigmaSource::residuals;
+    noise.correlated.emplace();
+    noise.correlated->jtcj = Eigen::Vector2d(8.0, 2.0).asDiagonal();
+    ReadingNoise stated = noise;
+    stated.source = SigmaSource::sensor;
+    take_in(two, noise), take_in(two, stated);
+    EXPECT_NEAR(noise.sigma_mm, 1e-3 * std::sqrt(redundancy / left), 1e-15);
+    EXPECT_EQ(noise.shown_mm, noise.sigma_mm);
+    EXPECT_EQ(stated.sigma_mm, 1e-3);
+    EXPECT_NEAR(noise.u_factor, 2.0, 1e-12);
+    EXPECT_NEAR(stated.u_factor, 2.0, 1e-12);
+  }
+}
+
+// In mm on the surface, the largest first in sign, without what is below 0.05.
+TEST(FitUncertainty, AFreeDirectionIsNamedByItsParts) {
+  const auto named = [](double x, double y, double slope) {
+    return name_direction(Eigen::Vector3d(x, y, slope), {"x", "y", "slope_x"}, {1.0, 1.0, 25.0});
+  };
+  EXPECT_EQ(named(0.6, -0.04, 0.8 / 25.0), "0.60 x + 0.80 slope_x");
+  EXPECT_EQ(named(0.6, -0.06, 0.8 / 25.0), "0.60 x - 0.06 y + 0.80 slope_x");
+  EXPECT_EQ(named(0.6, 0.0, -0.8 / 25.0), "-0.60 x + 0.80 slope_x");
+  EXPECT_EQ(named(1.2, 0.0, -1.6 / 25.0), "-0.60 x + 0.80 slope_x");
+}
+
+// Each end is k times the u away that the apex would have if it were there (Fieller): a move d of
+// it adds d times the u of ln tan α, which correlates with it. Nothing bounds it if that is 1/k.
+TEST(FitUncertainty, TheApexHasAnIntervalOfItsOwn) {
+  const double alpha = 0.2, relative = 1.0 / (std::tan(alpha) * std::pow(std::cos(alpha), 2));
+  for (const double u_ln : {0.1, 0.4, 0.49, 0.51}) {
+    const double u_angle = u_ln / relative, u_mm = 0.5, shared = -0.6 * u_mm * u_angle;
+    std::vector<FitParameter> parameters{{"half_angle", {alpha, u_angle, "rad", ""}},
+                                         {"k", {-120.0, u_mm, "mm", ""}}};
+    Covariance covariance({"half_angle", "k"});
+    const double of[] = {u_angle * u_angle, shared, shared, u_mm * u_mm};
+    std::copy_n(of, 4, covariance.data());
+    add_apex_interval(parameters, covariance, 2.0);
+    const auto& interval = parameters[1].estimate.interval;
+    ASSERT_EQ(interval.has_value(), u_ln < 0.5);
+    if (!interval) continue;
+    for (const double end : {(*interval)[0], (*interval)[1]}) {
+      const double d = end + 120.0;
+      const double variance = u_mm * u_mm - 2.0 * d * relative * shared + d * d * u_ln * u_ln;
+      EXPECT_NEAR(std::abs(d), 2.0 * std::sqrt(variance), 1e-9);
+    }
+    EXPECT_LT((*interval)[0], -120.0);
+    EXPECT_GT((*interval)[1], -120.0);
+  }
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "fit/associate.hpp"
+#include "fit/describe.hpp"
 #include "fit/joint_model.hpp"
 #include "fit/moved.hpp"
 #include "fit/place_set_ups.hpp"
@@ -57,6 +59,43 @@ TEST(FitUncertainty, OfAFewCorrelatedReadingsIsWiderByTheirCorrelation) {
   const double rho = found.autocorrelation;
   ASSERT_GT(rho * std::sqrt(48.0), 4.0);
   EXPECT_NEAR(found.u_factor, std::sqrt((1.0 + rho) / (1.0 - rho)), 1e-12);
+  const auto widened = [](const FitResult& of) {
+    return std::ranges::any_of(of.notes, [](const std::string& note) {
+      return note.find("TrueAxis widens every u") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(widened(found));
+  EXPECT_FALSE(widened(fit(cylinder(48, 2.3, 0.1), of_cylinder())));
+}
+
+// Two chips next to each other count as three σ each.
+TEST(FitUncertainty, ChipsHardlyCorrelate) {
+  std::mt19937_64 random(46);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  ProbeStream stream = cylinder(400, 8.3, 0.1);
+  for (double& x : stream.reading_mm) x += normal(random);
+  for (const std::size_t i : {50U, 51U, 200U, 201U, 300U, 301U}) stream.reading_mm[i] += 0.1;
+  const FitResult found = fit(stream, of_cylinder());
+  const double sigma_mm = found.rms_mm * std::sqrt(400.0 / 395.0);
+  double products = 0.0, squares = 0.0, before = 0.0;
+  for (const double left : found.residual_mm) {
+    const double r = std::clamp(left, -3.0 * sigma_mm, 3.0 * sigma_mm);
+    products += r * before, squares += r * r, before = r;
+  }
+  EXPECT_NEAR(found.autocorrelation, products / squares, 0.02);
+}
+
+// U of the radius, or of the one in the middle of a cone; 0 if there is none.
+TEST(FitNotes, URadiusIsThatOfTheRadius) {
+  FitResult found;
+  found.coverage_factor = 3.0;
+  EXPECT_EQ(radius_U_mm(found), 0.0);
+  found.parameters = {{"x0", {1.0, 7.0, "mm", ""}}, {"radius", {1.0, std::nan(""), "mm", ""}}};
+  EXPECT_EQ(radius_U_mm(found), 0.0);
+  found.parameters.back().estimate.u = 0.5;
+  EXPECT_EQ(radius_U_mm(found), 1.5);
+  found.derived = {{"radius_mid", {1.0, 0.25, "mm", ""}}};
+  EXPECT_EQ(radius_U_mm(found), 0.75);
 }
 
 /// What "noise of C" adds to u of the axis' place.
@@ -202,6 +241,69 @@ TEST(FitStart, ATiltIsOfOneClamping) {
     const bool here = part.clamping == 1;
     EXPECT_EQ(slopes(tilted), here ? std::pair(0.3, -0.2) : std::pair(0.0, 0.0));
     EXPECT_EQ(slopes(back), here ? std::pair(-0.3, 0.2) : std::pair(0.0, 0.0));
+  }
+}
+
+// Chips of 1 mm in a tenth of the readings: without them the start of a level cylinder is exact, up
+// to the rounding of squares of 20 mm over 0.1 mm.
+TEST(FitStart, OfARobustLossIsWithoutChips) {
+  ProbeStream stream = cylinder(400, 8.0, 0.1);
+  const auto is_chip = [](std::size_t i) { return i % 10 == 3; };
+  for (std::size_t i = 0; i < stream.size(); ++i) stream.reading_mm[i] += is_chip(i) ? 1.0 : 0.0;
+  const JointModel model(stream, place_set_ups(stream), catalogue_entry(SurfaceKind::cylinder), {});
+  std::vector<double> left_mm(model.size());
+  for (const Loss loss : {Loss::huber, Loss::tukey}) {
+    model.residuals(find_start(model, samples_of(model), loss), left_mm);
+    for (std::size_t i = 0; i < left_mm.size(); ++i)
+      ASSERT_NEAR(left_mm[i], is_chip(i) ? 1.0 : 0.0, 1e-9) << i;
+  }
+}
+
+// A robust loss passes over the readings for its scale, its minimum and the last digits, each at
+// least as often as a fit that starts at the plain minimum.
+TEST(FitMinimum, PassesOfAllStagesCount) {
+  std::mt19937_64 random(45);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  ProbeStream stream = cylinder(400, 8.3, 0.1);
+  for (double& x : stream.reading_mm) x += normal(random);
+  FitOptions options = of_cylinder();
+  const int plain = fit(stream, options).iterations;
+  ASSERT_GT(plain, 0);
+  options.loss = Loss::huber;
+  const int huber = fit(stream, options).iterations;
+  EXPECT_GT(huber, plain);
+  options.loss = Loss::tukey;
+  EXPECT_GT(fit(stream, options).iterations, huber) << "it begins with Huber's";
+}
+
+// Where the slopes of Tukey's loss by its own formula are zero, here to a ten-millionth of the
+// noise. Its fourth differences err by (h/c)⁴ of a step h.
+TEST(FitMinimum, IsPolishedFarBelowTheNoise) {
+  constexpr double c_mm = 5e-3;
+  std::mt19937_64 random(44);
+  std::normal_distribution<double> normal(0.0, 1e-3);
+  ProbeStream stream = cylinder(400, 8.3, 0.1);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    stream.reading_mm[i] += normal(random) + (i % 10 == 3 ? 0.02 : 0.0);
+  const JointModel model(stream, place_set_ups(stream), catalogue_entry(SurfaceKind::cylinder), {});
+  Minimum found;
+  found.working = find_start(model, samples_of(model), Loss::tukey);
+  polish(model, {LossScale::Kind::tukey, c_mm}, found);
+  const std::vector<double> scale = model.scale_mm(found.working);
+  for (std::size_t j = 0; j < scale.size(); ++j) {
+    const double h = 1e-5 / scale[j];
+    const auto cost = [&](double steps) {
+      std::vector<double> there = found.working, left_mm(model.size());
+      there[j] += steps * h;
+      model.residuals(there, left_mm);
+      double sum = 0.0;
+      for (const double r : left_mm)
+        sum += 1.0 - std::pow(1.0 - std::min(1.0, r * r / (c_mm * c_mm)), 3);
+      return sum;
+    };
+    const double slope = (8.0 * (cost(1.0) - cost(-1.0)) - cost(2.0) + cost(-2.0)) / 12.0;
+    const double bend = cost(1.0) - 2.0 * cost(0.0) + cost(-1.0);
+    EXPECT_NEAR(slope / bend * 1e-5, 0.0, 1e-10) << j;
   }
 }
 

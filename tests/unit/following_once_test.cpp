@@ -169,6 +169,9 @@ TEST(Remedy, OfTooFewSetPointsIsTheSamplingAndTheSpeed) {
   ASSERT_EQ(remedy.parts.size(), 1u);
   ASSERT_EQ(remedy.parts.front().code, ReasonCode::at_speed_or_less);
   const double hz = remedy.number("rate")->value;
+  const Profile profile(far_axis().axis, cylinder(), tool);
+  for (const auto& [rpm, said] : {std::pair{0.5, 1U}, {0.0, 0U}, {700.0, 0U}})
+    EXPECT_EQ(trueaxis::remedy(Spectrum(profile), profile, actuator, rpm).parts.size(), said);
   tool.speed_rpm = remedy.parts.front().number("speed")->value;
   EXPECT_TRUE(make_correction(far_axis(), cylinder(), tool, actuator).margin.follows);
   tool.speed_rpm = 600.0, actuator.sampling_hz = hz;

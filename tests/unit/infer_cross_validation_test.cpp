@@ -83,6 +83,7 @@ TEST(InferCrossValidation, AnIntervalBeginsAt25InAThousand) {
   EXPECT_EQ(out.held_out_before_mm.low, 0.0);
   EXPECT_EQ(out.held_out_ratio.value, 1.0);
   EXPECT_EQ(out.held_out_ratio.low, 1.0) << "of nothing";
+  EXPECT_EQ(out.held_out_ratio.high, 1.0);
 }
 
 TEST(InferCrossValidation, BlocksThatAreAlikeHaveNoInterval) {

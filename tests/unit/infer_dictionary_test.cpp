@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <random>
 
@@ -130,6 +131,23 @@ TEST(InferDictionary, OfTwoEffectsAThirdMayLookMostLikeBoth) {
   ASSERT_LT(dictionary.weighed(120, alone).criterion, dictionary.weighed(40, alone).criterion);
   ASSERT_LT(dictionary.weighed(120, alone).criterion, dictionary.weighed(90, alone).criterion);
   EXPECT_EQ(found(dictionary), (Dictionary::Set{40, 90}));
+}
+
+// Next to the first column the second is 6 σ of 37 readings: of Student's t. Just above the level
+// of its family it stays out, in a pair as well, though the criterion is better with it.
+TEST(InferDictionary, ATermPassesBelowItsLevelAndNotJustAboveIt) {
+  std::vector<Hypothesis> list(2);
+  list[0].columns = 5.0 * Eigen::VectorXd::Unit(40, 1), list[0].largest = 20.0;
+  list[1].columns = 5.0 * Eigen::VectorXd::Unit(40, 2), list[1].largest = 20.0;
+  Dictionary dictionary(list, Eigen::VectorXd::Unit(40, 0));
+  Eigen::VectorXd residuals = Eigen::VectorXd::Ones(40);
+  residuals(1) = 60.0, residuals(2) = 6.0;
+  dictionary.take(residuals);
+  const boost::math::students_t t(37.0);
+  const double p = 2.0 * cdf(complement(t, 6.0));
+  const auto places = [&](double level) { return -std::log1p(-0.01) * share_of_effects / level; };
+  EXPECT_EQ(search(dictionary, {0.01, places(1.1 * p)}).size(), 2U);
+  EXPECT_EQ(search(dictionary, {0.01, places(p / 1.1)}), Dictionary::Set{0});
 }
 
 // By a decomposition of all columns: squares of the residual over the rows less all columns.

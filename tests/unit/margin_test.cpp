@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "format/reason_words.hpp"
 #include "servo_simulation.hpp"
@@ -253,6 +254,35 @@ TEST(Margin, TheSetPointsNeededAreWhereTheyBeginToDo) {
   const double needed = found.front().number("needed")->value;
   EXPECT_EQ(too_few(0.99 * needed).size(), 1U);
   EXPECT_TRUE(too_few(1.01 * needed).empty());
+}
+
+// Order 4 comes at a third of a bandwidth of 90 Hz at 450 rpm. Without any order a revolution does
+// at 1800 rpm.
+TEST(Margin, ATrustedSpeedIsAtAThirdOfTheBandwidth) {
+  ActuatorMargin at;
+  at.bandwidth_hz = 90.0;
+  at.highest_frequency_hz = 4.0 * 600.0 / 60.0;
+  EXPECT_NEAR(trusted_speed_rpm(at, 600.0), 450.0, 1e-9);
+  at.highest_frequency_hz = 0.0;
+  EXPECT_NEAR(trusted_speed_rpm(at, 600.0), 1800.0, 1e-9);
+}
+
+// What needs no motion follows up to a revolution at the bandwidth.
+TEST(Margin, TheHighestSpeedIsARevolutionAtTheBandwidth) {
+  const Profile profile({1e-6, 0.0, 0.0, 0.0, 0.0}, cylinder(), {});
+  const Actuator actuator;
+  EXPECT_NEAR(max_speed_rpm(Spectrum(profile), profile, actuator), 60.0 * actuator.bandwidth_hz(),
+              1e-9);
+}
+
+// An eccentricity e makes e²/4R of order 2: 15.6 nm count, 7.7 nm do not.
+TEST(Margin, AnOrderCountsFromTenNanometres) {
+  ToolSetup tool;
+  for (const auto& [e_mm, order] : {std::pair{0.05, 2.0}, {0.035, 1.0}}) {
+    const Correction made =
+        make_correction({{e_mm, 0.0, 0.0, 0.0, 0.0}, {}}, cylinder(), tool, Actuator());
+    EXPECT_NEAR(made.margin.highest_frequency_hz, order * tool.speed_rpm / 60.0, 1e-9) << e_mm;
+  }
 }
 
 }  // namespace

@@ -92,6 +92,39 @@ TEST(MisreadColumns, TheReadingTurnsOncePerRevolution) {
   }
 }
 
+// What goes once per revolution with a ninth of the square or more is an eccentricity, and no other
+// wave is then the revolution.
+TEST(MisreadColumns, AnEccentricityIsNoOtherWave) {
+  for (const double share : {0.095, 0.125}) {
+    ProbeStream stream = run_out();
+    for (std::size_t i = 0; i < stream.size(); ++i) {
+      const double c = stream.c_rad[i];
+      stream.reading_mm[i] = 20.0 + 0.02 * (std::sqrt(share) * std::cos(c) +
+                                            std::sqrt(1.0 - share) * std::cos(1.371 * c));
+    }
+    turn_as_reading_does(stream);
+    const double turned = stream.c_rad.back() / run_out().c_rad.back();
+    EXPECT_NEAR(turned, share < 1.0 / 9.0 ? 1.371 : 1.0, 2e-3) << share;
+  }
+}
+
+// A step of the search, a quarter of a turn over the stream, is what it tells from once per
+// revolution.
+TEST(MisreadColumns, ALineNextToOncePerRevolutionIsThat) {
+  constexpr double step = 0.25 / 20.0;
+  for (const double steps : {-1.4, -0.6, 0.6, 1.4}) {
+    const ProbeStream right = run_out();
+    ProbeStream stream = right;
+    for (double& c : stream.c_rad) c /= 1.0 + steps * step;
+    const std::vector<double> before = stream.c_rad;
+    turn_as_reading_does(stream);
+    if (std::abs(steps) < 1.0)
+      EXPECT_EQ(stream.c_rad, before) << steps;
+    else
+      EXPECT_NEAR(stream.c_rad.back() / right.c_rad.back(), 1.0, 5e-4) << steps;
+  }
+}
+
 // An ordinary stream and one whose largest wave is lobes.
 TEST(MisreadColumns, LobesAreNotTurns) {
   ProbeStream stream = run_out();
@@ -210,6 +243,16 @@ TEST(FitMisreading, WhatIsReadOtherwiseGoesRound) {
     const ProbeStream degrees = with_c(right, [](double c) { return c / rad_per_deg; });
     EXPECT_EQ(misread_as(degrees, right) != "", step < 0.25) << step;
   }
+}
+
+// If there is no surface at all, all of the readings are residuals.
+TEST(FitMisreading, WithoutASurfaceTheReadingsAreLeft) {
+  ProbeStream stream;
+  stream.reading_mm = {3.0, 5.0, 10.0};
+  EXPECT_NEAR(left_mm(stream, {}), std::sqrt((9.0 + 1.0 + 16.0) / 3.0), 1e-15);
+  FitResult fit;
+  fit.residual_mm = {0.1, -0.1, 0.1}, fit.rms_mm = 0.1;
+  EXPECT_EQ(left_mm(stream, fit), 0.1);
 }
 
 TEST(FitMisreading, ColumnsAreExchanged) {

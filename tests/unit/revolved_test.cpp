@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
+#include "surface/revolved_kernel.hpp"
 #include "trueaxis/surface.hpp"
 
 namespace trueaxis {
@@ -124,6 +127,62 @@ TEST(Intersect, SteepConesOpenEitherWayAndTheMirroredNappeIsRejected) {
       const double beyond = z_apex - (t > 0.0 ? 4.0 : -4.0);
       EXPECT_FALSE(intersect(cone, c, beyond).hit);
       EXPECT_FALSE(intersect(cone, c, beyond, 0.0, Root::rear).hit);
+    }
+  }
+}
+
+// Through every point of a cone goes a line that meets the cone: there, or still farther out.
+TEST(Intersect, MeetsEveryPointOfACone) {
+  std::mt19937 random(20240612);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int there = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = std::tan(uniform(-80.0, 80.0) * pi / 180.0);
+    const double lx = uniform(-0.3, 0.3), ly = uniform(-0.3, 0.3), n = std::hypot(1.0, lx, ly);
+    const Revolved cone{{uniform(-9, 9), uniform(-9, 9), lx, ly, 20.0}, uniform(5, 60), t};
+    // From the axis at height s by the radius there, at right angles to it.
+    const double s = uniform(-50, 50), radius = cone.radius_mm + t * s, turned = uniform(-pi, pi);
+    if (radius < 1.0) continue;
+    const double e[3] = {1.0 / std::hypot(1.0, lx), 0.0, -lx / std::hypot(1.0, lx)};
+    const double d[3] = {lx / n, ly / n, 1.0 / n};
+    const double f[3] = {d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2],
+                         d[0] * e[1] - d[1] * e[0]};
+    double p[3] = {cone.axis.x_mm, cone.axis.y_mm, 20.0};
+    for (int k = 0; k < 3; ++k)
+      p[k] += s * d[k] + radius * (std::cos(turned) * e[k] + std::sin(turned) * f[k]);
+    const double x = std::hypot(p[0], p[1]), c = std::atan2(p[1], p[0]);
+    const Intersection front = intersect(cone, c, p[2]);
+    const Intersection rear = intersect(cone, c, p[2], 0.0, Root::rear);
+    const double rounding = 1e-6 * (1.0 + std::abs(t));  // √ε where the line grazes
+    ASSERT_TRUE(front.hit && rear.hit) << i;
+    EXPECT_GE(front.x_mm, x - rounding * x) << i;
+    EXPECT_LE(rear.x_mm, x + rounding * x) << i;
+    there += std::min(std::abs(front.x_mm - x), std::abs(rear.x_mm - x)) < rounding * x;
+  }
+  EXPECT_GT(there, 2000);
+}
+
+// If a cylinder is about the spindle √disc is r: the column of the radius is 1 to some bits, and
+// the residual of X_M = 0 is −r to the last bit. No instruction set's first estimate shows.
+TEST(RevolvedKernel, ItsRootIsExactToTheLastBit) {
+  constexpr double bit = std::numeric_limits<double>::epsilon();
+  std::vector<double> cosine, sine, z(block_size, 7.0), x(block_size, 0.0);
+  for (std::size_t i = 0; i < block_size; ++i)
+    cosine.push_back(std::cos(0.1 * static_cast<double>(i))),
+        sine.push_back(std::sin(0.1 * static_cast<double>(i)));
+  PredictionBlock out;
+  for (double radius = 10.0; radius < 41.0; radius += 0.037) {  // two octaves of r²
+    for (const Root root : {Root::front, Root::rear}) {
+      const double side = root == Root::front ? 1.0 : -1.0;
+      evaluate_revolved({{0.0, 0.0, 0.0, 0.0, 5.0}, radius, 0.0}, root, 0.0,
+                        {x.data(), cosine.data(), sine.data(), z.data()}, out);
+      ASSERT_TRUE(out.valid);
+      for (std::size_t i = 0; i < block_size; ++i) {
+        ASSERT_NEAR(out.column[w_r][i], side, 6.0 * bit) << radius;
+        ASSERT_NEAR(out.residual[i], -side * radius, 1.25 * bit * radius) << radius;
+      }
     }
   }
 }

@@ -74,6 +74,8 @@ Weighed by_equation_80(const SizePrior& prior, const Eigen::MatrixXd& gram,
   out.mean = out.precision = Eigen::VectorXd::Zero(n);
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(n, n);
   for (const double at : {-2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0}) {
+    if (prior.most.size() > 0 && std::exp(prior.spread * at) * prior.median(0) > prior.most(0))
+      continue;  // impossible sizes
     const double weight = at <= 3.0 ? normal(at, 1.0) : at < 5.0 ? 1e-4 : at < 7.0 ? 1e-5 : 1e-6;
     const Eigen::VectorXd s2 = (std::exp(prior.spread * at) * prior.median).array().square();
     const Eigen::MatrixXd adds = variance * Eigen::MatrixXd(s2.cwiseInverse().asDiagonal());
@@ -99,23 +101,24 @@ Weighed by_equation_80(const SizePrior& prior, const Eigen::MatrixXd& gram,
 TEST(SizePrior, IsEquation80OverNineScales) {
   const Eigen::Vector2d median(0.05, 0.2);
   const Eigen::Matrix2d gram{{40.0, 9.0}, {9.0, 5.0}};
-  const SizePrior prior{median, 0.8};
-  for (const double spreads : {-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0}) {
-    const Eigen::Vector2d size =
-        std::exp(0.8 * spreads) * median.cwiseProduct(Eigen::Vector2d(1.0, -0.7));
-    for (const double sds : {0.5, 3.0, 12.0}) {  // how well the readings show it
-      const Eigen::Vector2d right = gram * size;
-      const double square = size.dot(right), rss = square * (1.0 + 28.0 / (sds * sds));
-      const Weighed found = weigh(prior, gram, right, gram.diagonal(), rss, 30.0);
-      const Weighed expected = by_equation_80(prior, gram, right, rss, 30.0);
-      SCOPED_TRACE(testing::Message() << spreads << " spreads, " << sds << " of its u");
-      EXPECT_NEAR(found.criterion, expected.criterion, 0.02);
-      EXPECT_LT((found.mean - expected.mean).norm(), 0.01 * size.norm());
-      EXPECT_LT((found.covariance - expected.covariance).norm(),
-                0.02 * (expected.covariance.norm() + size.squaredNorm()));
-      EXPECT_LT((found.precision - expected.precision).norm(), 0.02 * expected.precision.norm());
+  const Eigen::Vector2d most = std::exp(0.8 * 1.5) * median;
+  for (const SizePrior& prior : {SizePrior{median, 0.8}, SizePrior{median, 0.8, -most, most}})
+    for (const double spreads : {-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0}) {
+      const Eigen::Vector2d size =
+          std::exp(0.8 * spreads) * median.cwiseProduct(Eigen::Vector2d(1.0, -0.7));
+      for (const double sds : {0.5, 3.0, 12.0}) {  // how well the readings show it
+        const Eigen::Vector2d right = gram * size;
+        const double square = size.dot(right), rss = square * (1.0 + 28.0 / (sds * sds));
+        const Weighed found = weigh(prior, gram, right, gram.diagonal(), rss, 30.0);
+        const Weighed expected = by_equation_80(prior, gram, right, rss, 30.0);
+        SCOPED_TRACE(testing::Message() << spreads << " spreads, " << sds << " of its u");
+        EXPECT_NEAR(found.criterion, expected.criterion, 0.02);
+        EXPECT_LT((found.mean - expected.mean).norm(), 0.01 * size.norm());
+        EXPECT_LT((found.covariance - expected.covariance).norm(),
+                  0.02 * (expected.covariance.norm() + size.squaredNorm()));
+        EXPECT_LT((found.precision - expected.precision).norm(), 0.02 * expected.precision.norm());
+      }
     }
-  }
 }
 
 // One normal a scale: together they have weigh's mean and covariance. Few rows, so that their
@@ -237,8 +240,8 @@ TEST(SizePrior, ASizeBeyondThreeSpreadsIsExtraordinary) {
     EXPECT_FALSE(weighed(1e6, sign * 9.8, 0.5, 1.0).extraordinary);
     EXPECT_TRUE(weighed(1e6, sign * 10.3, 0.5, 1.0).extraordinary);
     EXPECT_FALSE(weighed(1e6, sign * 10.3, 0.0, 1.0).extraordinary);  // no size is known
-    EXPECT_FALSE(weighed(1e6, sign * 0.98, 0.05, 1.0).extraordinary);
-    EXPECT_TRUE(weighed(1e6, sign * 1.03, 0.05, 1.0).extraordinary);
+    EXPECT_FALSE(weighed(1e6, sign * 0.39, 0.02, 1.0).extraordinary);
+    EXPECT_TRUE(weighed(1e6, sign * 0.42, 0.02, 1.0).extraordinary);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -208,6 +209,23 @@ TEST(SphereTorus, UncertaintiesAreThoseOfTheNoise) {
   }
 }
 
+// Tubes of half to twice the radius that touch each other in the middle of the section.
+TEST(Torus, FurtherStartsGoThroughTheSameMiddle) {
+  const auto surface = catalogue_entry(SurfaceKind::torus).make({});
+  for (const double tube : {4.0, -4.0}) {
+    const std::vector<double> level{0.1, -0.2, 0.0, 0.0, 31.0, 20.0, tube};
+    std::vector<double> tubes;
+    for (const std::vector<double>& one : surface->further_starts(level)) {
+      EXPECT_NEAR(one[5] + one[6], 20.0 + tube, 1e-12);
+      EXPECT_TRUE(std::equal(one.begin(), one.end() - 2, level.begin()));
+      tubes.push_back(one[6] / tube);
+    }
+    const auto [least, most] = std::ranges::minmax(tubes);
+    EXPECT_NEAR(least, 0.5, 1e-12);
+    EXPECT_NEAR(most, 2.0, 1e-12);
+  }
+}
+
 TEST(SphereTorus, AreFittedAndNotDiagnosedAndTakeNoGauge) {
   ProbeStream stream = sphere(25.0);
   DiagnoseOptions options;
@@ -215,6 +233,11 @@ TEST(SphereTorus, AreFittedAndNotDiagnosedAndTakeNoGauge) {
   const Diagnosis diagnosis = diagnose(stream, options);
   EXPECT_TRUE(diagnosis.findings.empty());
   EXPECT_NE(diagnosis.noise.note.find("a sphere is fitted and not diagnosed"), std::string::npos);
+  EXPECT_NO_THROW(fit(stream, options.fit));
+  stream.setup.assign(stream.size(), 1), stream.setup.back() = 2;
+  stream.setups.push_back({.number = 2});
+  EXPECT_THROW(fit(stream, options.fit), InputError) << "a stream for each set-up";
+  stream = sphere(25.0);
   stream.indication = Indication::relative;
   stream.nominal_radius_mm = 25.0;
   EXPECT_THROW(fit(stream, options.fit), InputError);

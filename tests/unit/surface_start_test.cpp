@@ -86,6 +86,46 @@ TEST(RevolvedStart, IsNearASurfaceThatLeans) {
   }
 }
 
+// A cone that nearly ends within the length is blunted to 0.9 of the radius over half of it. The
+// axis is pulled in to 0.8 of the least radius.
+TEST(RevolvedStart, LevelLeavesRoomAroundTheSpindle) {
+  constexpr double half_mm = 30.0, radius_mm = 40.0;
+  SurfaceFrame frame;
+  frame.position_ref_mm = 55.0, frame.half_length_mm = half_mm;
+  const auto cone = catalogue_entry(SurfaceKind::cone).make(frame);
+  const struct {
+    double x, y, steep, pulled, blunted;
+  } cases[] = {{0.5, -0.3, 0.95, 1.0, 0.9},
+               {-0.5, 0.3, -0.95, 1.0, -0.9},
+               {28.0, -21.0, 0.0, 0.8 * 40.0 / 35.0, 0.0},
+               {4.0, -3.0, 0.85, 0.8 * 6.0 / 5.0, 0.85}};
+  for (const auto& c : cases) {
+    const double per_mm = radius_mm / half_mm;
+    const LevelReadings readings({{c.x, c.y, 0.0, 0.0, 55.0}, radius_mm, c.steep * per_mm});
+    const auto start = cone->level_start(readings.block(), 240);
+    const double expected[] = {c.pulled * c.x, c.pulled * c.y,    0.0, 0.0,
+                               radius_mm,      c.blunted * per_mm};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(start[i], expected[i], 1e-9) << i;
+  }
+}
+
+// Its bend, (1 + t²) R times the slope, is then more than a tenth of half the length.
+TEST(RevolvedStart, ATiltMayBeMirroredOnAShortPart) {
+  SurfaceFrame frame;
+  frame.half_length_mm = 10.0;
+  const auto cylinder = catalogue_entry(SurfaceKind::cylinder).make(frame);
+  const auto cone = catalogue_entry(SurfaceKind::cone).make(frame);
+  for (const double share : {0.98, 1.02}) {
+    const double slope = share * 0.1 * 10.0 / 25.0;
+    const std::vector<double> of_cylinder{9.0, 9.0, 0.6 * slope, -0.8 * slope, 25.0};
+    const std::vector<double> of_cone{9.0, 9.0, -0.3 * slope, 0.4 * slope, 25.0, -1.0};
+    EXPECT_EQ(cylinder->tilt_may_be_mirrored(of_cylinder), share > 1.0);
+    EXPECT_EQ(cone->tilt_may_be_mirrored(of_cone), share > 1.0);
+  }
+  const auto section = catalogue_entry(SurfaceKind::section).make(frame);
+  EXPECT_FALSE(section->tilt_may_be_mirrored(std::vector{9.0, 9.0, 25.0}));
+}
+
 // What is reported, Eqs. 24 and 25, by differences of its own formulas: where the axis crosses
 // Z = 0, its direction, the apex and the half angle.
 TEST(SurfaceCatalogue, ReportedJacobianIsThatOfTheReportedNumbers) {
@@ -174,6 +214,10 @@ TEST(OwnSurfaceProfile, AConeHasTheNumbersOfACone) {
       for (std::size_t j = 0; j < 6; ++j)
         EXPECT_NEAR(a.jacobian[6 * i + j], b.jacobian[6 * i + j], 1e-12) << i << ' ' << j;
     }
+    for (std::size_t i = 4; i < 6; ++i) {  // its own parameters are reported as they are
+      EXPECT_EQ(a.value[i], of_own[i]);
+      for (std::size_t j = 0; j < 6; ++j) EXPECT_EQ(a.jacobian[6 * i + j], i == j ? 1.0 : 0.0);
+    }
     for (double c = 0.0; c < 6.0; c += 0.7) {
       const auto found = own->influences(of_own, c, 40.0 + c);
       const auto expected = cone->influences(of_cone, c, 40.0 + c);
@@ -181,6 +225,59 @@ TEST(OwnSurfaceProfile, AConeHasTheNumbersOfACone) {
       EXPECT_NEAR(found.c, expected.c, 1e-10);
       EXPECT_NEAR(found.position, expected.position, 1e-11);
     }
+  }
+}
+
+// Z = 12 + 2e-3 x − 3e-3 y: its axis is its normal through the spindle's axis, where it meets it.
+TEST(SurfacePlane, ItsShapeIsItsAxis) {
+  const auto plane = catalogue_entry(SurfaceKind::plane).make({});
+  const std::vector<double> working{12.0, 2e-3, -3e-3};
+  const Revolved shape = plane->shape(working);
+  EXPECT_EQ(shape.radius_mm, 0.0);
+  EXPECT_EQ(shape.tan_half_angle, 0.0);
+  EXPECT_EQ(shape.axis.at(12.0), (std::array{0.0, 0.0}));
+  EXPECT_EQ(shape.axis.slope_x, -2e-3);
+  EXPECT_EQ(shape.axis.slope_y, 3e-3);
+}
+
+// A shift of 1 mm, a slope over the radius, or over the farthest X of a face, a radius.
+TEST(SurfaceCatalogue, AUnitOfAParameterIsItsLengthOnTheSurface) {
+  SurfaceFrame frame;
+  frame.position_ref_mm = -20.0, frame.half_length_mm = 10.0;
+  const auto scale_of = [&](SurfaceKind kind, const std::vector<double>& working) {
+    return catalogue_entry(kind).make(frame)->working_scale_mm(working);
+  };
+  using Values = std::vector<double>;
+  EXPECT_EQ(scale_of(SurfaceKind::section, {0.1, 0.2, 25.0}), (Values{1, 1, 1}));
+  EXPECT_EQ(scale_of(SurfaceKind::cylinder, {0.1, 0.2, 0, 0, 25.0}), (Values{1, 1, 25, 25, 1}));
+  EXPECT_EQ(scale_of(SurfaceKind::cone, {0.1, 0.2, 0, 0, 25.0, 0.3}),
+            (Values{1, 1, 25, 25, 1, 25}));
+  EXPECT_EQ(scale_of(SurfaceKind::plane, {12.0, 1e-3, 2e-3}), (Values{1, 30, 30}));
+  EXPECT_EQ(scale_of(SurfaceKind::sphere, {0.1, 0.2, -21.0, 25.0}), (Values{1, 1, 1, 1}));
+}
+
+// A sphere of 25 mm whose centre is at (1.3, −0.7, 55), by its own closed form. The start is exact.
+TEST(SurfaceSphere, ItsNumbersAreThoseOfTheSphere) {
+  for (const Root root : {Root::front, Root::rear}) {
+    SurfaceFrame frame;
+    frame.position_ref_mm = 52.0, frame.half_length_mm = 15.0, frame.root = root;
+    const std::vector<double> working{1.3, -0.7, 55.0, 25.0};
+    LevelReadings at({{0.0, 0.0, 0.0, 0.0, 55.0}, 25.0, 0.0});
+    for (std::size_t i = 0; i < at.x.size(); ++i) {
+      at.z[i] = 55.0 + 0.5 * (at.z[i] - 55.0);
+      const double along = 1.3 * at.cos_c[i] - 0.7 * at.sin_c[i];
+      const double across = -0.7 * at.cos_c[i] - 1.3 * at.sin_c[i];
+      const double deep = std::sqrt(25.0 * 25.0 - across * across - std::pow(at.z[i] - 55.0, 2));
+      at.x[i] = along + (root == Root::front ? deep : -deep);
+    }
+    const auto sphere = catalogue_entry(SurfaceKind::sphere).make(frame);
+    const std::vector<double> start = sphere->start(at.block(), 240);
+    ASSERT_EQ(start.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(start[i], working[i], 1e-10) << i;
+    expect_derivatives(*sphere, working, at);
+    // Its axis is the spindle's direction through its centre.
+    const std::vector<double> expected{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    EXPECT_EQ(sphere->axis_jacobian(working), expected);
   }
 }
 
