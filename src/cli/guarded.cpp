@@ -34,6 +34,12 @@ Ending ending_of(const FitResult& fit, const std::string& source) {
   return {refused, "refused: " + source + ": the axis is not known"};
 }
 
+void set_aside(Outputs& outputs, const std::string& path) {
+  if (const std::string name = outputs.set_aside(path); !name.empty())
+    std::cerr << "warning: " << path << " is not of this run: TrueAxis keeps it as " << name
+              << '\n';
+}
+
 int exit_code_of(const FitResult& fit, const std::string& source) {
   const Ending ending = ending_of(fit, source);
   if (ending.code != done) std::cerr << ending.why << '\n';

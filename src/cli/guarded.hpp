@@ -45,6 +45,9 @@ CLI::Option* add_check(CLI::App& command, bool& check);
 /// write. @returns the exit code
 int checked(const Outputs& outputs, const std::string& would);
 
+/// What is at a place that this run does not write gets another name, said on standard error.
+void set_aside(Outputs& outputs, const std::string& path);
+
 /// Takes every step, whatever is wrong in those before it.
 /// @throws InputError with what is wrong in all of them
 void all_of(std::initializer_list<std::function<void()>> steps);

@@ -47,7 +47,7 @@ void write_all(Outputs& outputs, const MachineJobResult& result) {
     outputs.write(outputs.in_folder("errors.toml"),
                   errors_toml(result.errors, &result.job.machine));
   else
-    outputs.remove_earlier(outputs.in_folder("errors.toml"));
+    set_aside(outputs, outputs.in_folder("errors.toml"));
   if (result.compensation)
     outputs.write(outputs.in_folder("compensation.json"), job_compensation_json(result));
   if (!result.job.program) return;
@@ -55,7 +55,7 @@ void write_all(Outputs& outputs, const MachineJobResult& result) {
   if (result.verdict.go())
     outputs.open(program).write(result.compensation->text);
   else
-    outputs.remove_earlier(program);  // one is there only if it may be run
+    set_aside(outputs, program);  // one is there only if it may be run
 }
 
 std::string would_do(const MachineJob& job) {

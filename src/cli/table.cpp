@@ -140,7 +140,7 @@ int execute(const CorrectArguments& options) {
   options.results.write(outputs, "--json", [&] { return job_json(result, {}); });
   if (!options.preview && cut) outputs.write(options.table, correction_csv(*result.correction));
   if (!options.preview && !cut)
-    outputs.remove_earlier(options.table);  // one is there only when it may be run
+    set_aside(outputs, options.table);  // one is there only when it may be run
   outputs.commit();
   const bool printed = options.results.printed() || (!options.preview && options.table == "-");
   if (!printed && result.correction)

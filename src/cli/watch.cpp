@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/number.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -158,19 +159,42 @@ class Watch {
   bool enough_ = false, wrong_ = false;
 };
 
+/// What the options say of the readings, as the lines of a stream: the file is then read as they
+/// were.
+std::string said_lines(const RunArguments& options, std::string_view text) {
+  std::string out;
+  const auto say = [&](const char* key, const std::string& value) {
+    const std::string line = fmt::format("# {}:", key);
+    if (text.find(line) == std::string_view::npos) out += line + " " + value + "\n";
+  };
+  const StreamOptions& stream = options.stream;
+  const auto length = [](double value_mm) { return exact_text(value_mm) + " mm"; };
+  if (stream.diameter || stream.radius)
+    say("x_convention", stream.diameter ? "diameter" : "radius");
+  if (stream.relative) say("reading", "relative");
+  if (stream.nominal_radius_mm > 0.0) say("nominal_radius", length(stream.nominal_radius_mm));
+  if (options.association.fit.bore) say("feature", "bore");
+  if (options.association.fit.ball_radius_mm > 0.0)
+    say("ball_radius", length(options.association.fit.ball_radius_mm));
+  return out;
+}
+
 /// The recording of a pipe goes into the folder of the results, and `run` reads it there.
-std::string written_stream(const std::string& path, bool force, ArrivingText& text,
+std::string written_stream(const std::string& path, const RunArguments& options, ArrivingText& text,
                            const LiveStream& live) {
   if (text.all().empty() && live.readings() == 0)
     throw InputError("-", "nothing arrived: look at the program that writes the readings");
-  Outputs outputs(force);
+  Outputs outputs(options.force);
   outputs.into(std::filesystem::path(path).parent_path().string());
   outputs.may_write(path, "trueaxis.stream");
   outputs.check();
   if (live.stride() > 1)
     write_stream_csv(live.kept(), outputs.open(path));
-  else
-    outputs.write(path, text.all());
+  else {
+    std::string all(text.all());
+    const std::size_t first = all.starts_with("## schema:") ? all.find('\n') + 1 : 0;
+    outputs.write(path, all.insert(first, said_lines(options, all)));
+  }
   outputs.commit();
   return path;
 }
@@ -213,7 +237,7 @@ int execute(WatchArguments& options) {
                                             : "one is kept of ")
                 << watch.live().stride() << " neighbours among the " << watch.live().readings()
                 << " that arrived\n";
-    options.run.stream.path = written_stream(recording, options.run.force, text, watch.live());
+    options.run.stream.path = written_stream(recording, options.run, text, watch.live());
   }
   return run(options.run);
 }

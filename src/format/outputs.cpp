@@ -290,13 +290,15 @@ void Outputs::write(const std::string& path, std::string_view content) {
   file.close();
 }
 
-void Outputs::remove_earlier(const std::string& path) {
+std::string Outputs::set_aside(const std::string& path) {
   expects(checked_, "outputs that were checked");
   const auto place = std::ranges::find(places_, path, &Place::path);
-  if (is_standard_output(path) || schema_of_file(path) != place->schema) return;
-  std::error_code error;  // a link is to the table that must go, not the table
-  const fs::path place_of_it = fs::canonical(path, error);
-  earlier_.push_back(error ? path : place_of_it.string());
+  if (is_standard_output(path) || schema_of_file(path) != place->schema) return "";
+  std::string name = path + ".kept";
+  for (int n = 2; fs::exists(fs::symlink_status(name)); ++n)
+    name = fmt::format("{}.kept{}", path, n);
+  earlier_.push_back({path, name});
+  return name;
 }
 
 bool Outputs::remove_unchanged(const std::string& path, const std::string& hash) {
@@ -308,7 +310,7 @@ bool Outputs::remove_unchanged(const std::string& path, const std::string& hash)
   if (is_read || !fs::is_regular_file(fs::symlink_status(path, error)) ||
       content_hash(read_file(path)) != hash)
     return false;
-  earlier_.push_back(path);
+  earlier_.push_back({path, ""});
   return true;
 }
 
@@ -317,12 +319,15 @@ void Outputs::commit() {
   for (OutputFile& file : files_) file.commit();
   files_.clear();
   made_folder_ = false;
-  for (const std::string& path : earlier_) {
+  for (const auto& [path, new_name] : earlier_) {
     std::error_code error;
-    fs::remove(path, error);
+    if (new_name.empty())
+      fs::remove(path, error);
+    else
+      fs::rename(path, new_name, error);
     if (error) {
-      throw InputError(path, "belongs to an earlier job and cannot be removed (" + error.message() +
-                                 "): do not use it");
+      throw InputError(path, "belongs to an earlier job and cannot be moved away (" +
+                                 error.message() + "): do not use it");
     }
   }
 }

@@ -84,9 +84,11 @@ class Outputs {
   OutputFile& open(const std::string& path);
   /// The same at once; nothing is done for an empty path.
   void write(const std::string& path, std::string_view content);
-  /// What an earlier run left at a place that was named goes when the results are in theirs.
-  void remove_earlier(const std::string& path);
-  /// The same of a file that was not named, as long as it holds what was written (content_hash());
+  /// What is at a place that was named, and that this run does not write, gets another name when
+  /// the results are in theirs: it may be the user's.
+  /// @returns that name; empty: nothing of its schema is there
+  std::string set_aside(const std::string& path);
+  /// Removes a file as long as it holds what an earlier run wrote (content_hash()), likewise;
   /// false: it was changed, is a link or an input, and stays.
   bool remove_unchanged(const std::string& path, const std::string& hash);
   /// Every file into its place, in the order in which they were opened. @throws InputError
@@ -105,7 +107,10 @@ class Outputs {
   std::vector<std::string> inputs_;
   std::string folder_;
   std::vector<Place> places_;
-  std::vector<std::string> earlier_;
+  struct Earlier {
+    std::string path, new_name;  ///< empty: to be removed
+  };
+  std::vector<Earlier> earlier_;
   std::deque<OutputFile> files_;
 };
 

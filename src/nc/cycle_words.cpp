@@ -20,10 +20,13 @@ class Steps {
   std::vector<CycleStep> make() {
     const double back_mm = cycle_.to_r ? cycle_.r_mm : std::max(cycle_.initial_mm, cycle_.r_mm);
     if (z_ < cycle_.r_mm) go(x_, y_, cycle_.r_mm, false);
+    // After G99 the tool is at R: G98 then takes it over the next hole at the initial level.
+    const double over_mm = cycle_.to_r ? z_ : std::max(z_, cycle_.initial_mm);
     for (int hole = 0; hole < cycle_.holes; ++hole) {
       const double x = cycle_.to_mm[0] + hole * cycle_.step_mm[0],
                    y = cycle_.to_mm[1] + hole * cycle_.step_mm[1];
-      if (steps_.empty() || x != x_ || y != y_) go(x, y, z_, false);
+      const double z = hole == 0 ? over_mm : z_;
+      if (steps_.empty() || x != x_ || y != y_ || z != z_) go(x, y, z, false);
       to_level(cycle_.r_mm, false);
       drill();
       steps_.back().bottom = true;

@@ -34,7 +34,8 @@ struct CycleStep {
 
 /// The moves of a cycle, as LinuxCNC makes them: up to R where the tool is below it, above the
 /// hole, to R, down, back. G83 goes back to R after every Q and down again to 0.254 mm above where
-/// it was. The first of them goes above the first hole or up to R.
+/// it was. The first of them goes above the first hole or up to R. G98 after G99 goes over the next
+/// hole at the initial level (FANUC goes at R, lower).
 /// @param trouble why it is not a cycle, and what to do
 std::vector<CycleStep> steps_of(const Cycle& cycle, std::string& trouble);
 

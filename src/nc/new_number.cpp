@@ -9,10 +9,24 @@
 
 namespace trueaxis::nc {
 
+namespace {
+
+/// mm or rad.
+double unit_of(const Move& move, std::size_t axis) {
+  return is_rotary(axis) ? rad_per_deg : move.modal.inch ? mm_per_inch : 1.0;
+}
+
+}  // namespace
+
+bool says(const Word& word, const NewNumber& number, const Move& move) {
+  const double factor = unit_of(move, axis_of(word.letter));
+  return std::abs(factor * word.number - number.value) < factor * half_of(number.decimals);
+}
+
 NewNumber new_number(const Move& move, std::size_t axis, double value,
                      const WriteOptions& options) {
   const bool inch = move.modal.inch && !is_rotary(axis);
-  const double factor = is_rotary(axis) ? rad_per_deg : inch ? mm_per_inch : 1.0;
+  const double factor = unit_of(move, axis);
   const int least =
       is_rotary(axis) ? options.angle_decimals : options.linear_decimals + (inch ? 2 : 0);
   NewNumber out;

@@ -152,7 +152,8 @@ class Writer {
         copied_ = word.end;
       } else if (axis < axis_count && has(move.named, axis)) {
         NewNumber now = new_number(move, axis, position.words[axis], options_);
-        now.stays = now.stays && !move.modal.incremental;  // its text is a distance under G91
+        // A distance under G91, and the hole where the first move is up to R.
+        now.stays = now.stays && !move.modal.incremental && says(word, now, move);
         if (move.modal.incremental) check_sure(line, axis);
         replace_number(word, now, axis);
       } else {

@@ -33,6 +33,9 @@ struct NewNumber {
 /// that they are no coarser than in mm.
 NewNumber new_number(const Move& move, std::size_t axis, double value, const WriteOptions& options);
 
+/// Whether the text of a word is this number already.
+bool says(const Word& word, const NewNumber& number, const Move& move);
+
 /// All words of a position as they will be written (mm, rad).
 AxisValues as_written(const Move& move, const AxisValues& words, const WriteOptions& options);
 

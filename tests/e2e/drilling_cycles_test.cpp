@@ -90,6 +90,25 @@ TEST_F(DrillingCycles, ADistanceOfAnAxisThatNoErrorMovesBecomesItsPosition) {
   }
 }
 
+// X alone is corrected, and the tool is below R: the first move is up, where the tool is. The word
+// Y of the hole stayed in it, and the tool went across below R.
+TEST_F(DrillingCycles, BelowRTheFirstMoveIsUpAlone) {
+  const std::string low = "G21 G90 G94 G54\nG0 X0 Y0 Z1 B0 C0\nG81 G98 X10 Y100 Z-5 R2 F100\n";
+  file("m.toml", bc_trunnion);
+  file("e.toml",
+       "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n"
+       "[[error]]\nname = \"X0S\"\nvalue_um = 100\n");
+  file("p.nc", low);
+  ASSERT_EQ(command("machine compensate p.nc --machine m.toml --errors e.toml -o out.nc").exit_code,
+            0);
+  const std::string out = read_text(folder_ / "out.nc");
+  const PlainControl was(low), is(out);
+  ASSERT_EQ(is.moves.size(), was.moves.size()) << out;
+  for (std::size_t i = 0; i < was.moves.size(); ++i)
+    for (std::size_t k : {1, 2}) EXPECT_NEAR(is.moves[i].to[k], was.moves[i].to[k], 1e-9) << out;
+  EXPECT_NEAR(is.moves[1].to[0], is.moves[0].to[0], 1e-9) << out;
+}
+
 TEST_F(DrillingCycles, InInchToo) {
   const std::string inch =
       "G20 G90 G94 G54\nG0 X0 Y0 Z4 B30 C45\nG81 X.5 Y.5 Z-.4 R.1 F8\nX1.\nG80\nG21\nG0 X30\n";
@@ -149,13 +168,13 @@ std::vector<std::string> straight_moves(const std::filesystem::path& folder,
 // Without errors LinuxCNC makes of the written moves what it makes of the cycles. Writing the
 // source out by errors that cancel each other except for one rounding would not do, so the test
 // counts its moves by kind.
-// From the initial level: from the R level G98 takes LinuxCNC up before it goes to the next hole,
-// and FANUC, which is followed here, after it.
+// From the R level G98 takes LinuxCNC up on its way to the next hole, and FANUC after it: the
+// higher way is clear on both.
 TEST_F(DrillingCycles, LinuxCncMakesTheSameKindsOfMoves) {
   if (shell("command -v rs274").exit_code != 0) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
   const std::string program =
       "G21 G90 G94 G54\nG0 X0 Y0 Z100 B30 C45\nG99 G81 X10 Y10 Z-12.5 R2 F200\nX20.\n"
-      "G80\nG0 Z100\nG98 G82 X30 Z-8 R2 P0.5\nG83 X40 Z-20 Q5. R3\nG80\nG0 Z100\nM2\n";
+      "G98 G82 X30 Z-8 R2 P0.5\nG83 X40 Z-20 Q5. R3\nG80\nG0 Z100\nM2\n";
   ASSERT_EQ(compensate(program, 1).exit_code, 0);
   const auto was = straight_moves(folder_, "p.nc"), is = straight_moves(folder_, "out.nc");
   ASSERT_EQ(was.size(), is.size());

@@ -99,6 +99,10 @@ TEST_F(RunCommand, ARefusalLeavesNoEarlierTable) {
   EXPECT_EQ(first_line(done.out).rfind("NO-GO: the tool's line misses the target surface", 0), 0u);
   EXPECT_TRUE(contains(read_text(folder_ / "out/report.html"), "\"outcome\":\"no-go\""));
   EXPECT_FALSE(there("out/table.csv"));
+  // Nothing says that it is not the user's.
+  EXPECT_EQ(read_text(folder_ / "out/table.csv.kept"), earlier_table);
+  EXPECT_TRUE(contains(done.err + done.out, "keeps it as out/table.csv.kept"))
+      << done.err << done.out;
 }
 
 TEST_F(RunCommand, TheSameBytesEveryTime) {

@@ -98,6 +98,22 @@ TEST_F(Watch, ShowsTheAxisWhileItArrivesAndEndsLikeRun) {
   EXPECT_EQ(read_text(folder_ / "out/result.json"), read_text(folder_ / "batch/out/result.json"));
 }
 
+// The recording says what the options said, so that `run` reads it alike. Read as diameters, the
+// axis is half as far off.
+TEST_F(Watch, TheRecordingOfDiametersSaysSo) {
+  write_stream(10, [](double) { return Place{x0_mm, y0_mm, false}; });
+  watch("--diameter --ball-radius-mm 2", 2);
+  ASSERT_EQ(exit_code_, 0) << said_;
+  const std::string recording = read_text(folder_ / "out/stream.csv");
+  EXPECT_TRUE(contains(recording, "\n# x_convention: diameter\n# ball_radius: 2 mm\n")) << said_;
+  ASSERT_EQ(command("run out/stream.csv --surface cylinder -o again").exit_code, 0);
+  const auto x = [&](const char* path) {
+    return value_of(result(path).at("references")[0].at("axis").at("ends")[0].at("x"));
+  };
+  EXPECT_EQ(x("out/result.json"), x("again/result.json"));
+  EXPECT_NEAR(x("again/result.json"), 0.5 * x0_mm, 1e-3);
+}
+
 TEST_F(Watch, SaysAtOnceThatThePartSlipped) {
   write_stream(40, [](double turn) {
     return Place{x0_mm + (turn < 20 ? 0.0 : 0.02), y0_mm, false};

@@ -126,6 +126,7 @@ class PlainControl {
       AxisPositions over = at_;
       for (const std::size_t k : {0, 1})
         if (has("XY"[k])) over[k] = number("XY"[k]) + (incremental_ ? at_[k] : 0.0);
+      if (!to_r_) over[2] = std::max(over[2], initial_);  // after G99
       if (over != at_) go(over, true);
       level(r_, true);
       for (double depth = r_; depth > z_;) {

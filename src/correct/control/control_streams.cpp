@@ -50,7 +50,9 @@ MadeControlTable servo_nc(const Correction& correction, const ControlTable& tabl
   const double minutes = 1.0 / (correction.tool.speed_rpm * correction.tool.rows_per_revolution);
   const double scale = table.x_is_diameter ? 2.0 : 1.0;
   std::string text = "( schema: trueaxis.servo_nc/1 )\n";
-  put(text, "( X IS A {}, OF THE CENTRE OF THE NOSE; C IN DEGREES, RUNNING, AS PROBED; F IN {} )\n",
+  put(text,
+      "( X IS A {}, OF THE CENTRE OF THE NOSE, POSITIVE AWAY FROM THE AXIS; X AND Z IN MM )\n"
+      "( C IN DEGREES, RUNNING, AS PROBED; F IN {} )\n",
       table.x_is_diameter ? "DIAMETER" : "RADIUS",
       table.minutes ? "MINUTES A BLOCK" : "BLOCKS A MINUTE");
   std::string blocks;
@@ -71,7 +73,13 @@ MadeControlTable servo_nc(const Correction& correction, const ControlTable& tabl
   blocks += "G94\n";
   const double rounding_mm = 0.5 * unit_mm / (face ? 1.0 : scale);
   const Deviation off = servo_as_read(correction, table, blocks);
-  return {std::move(text) + table.head + blocks + table.tail, rounding_mm, off};
+  // A control wants the lines % and O before all others.
+  std::size_t first = 0;
+  for (const char line : {'%', 'O'})
+    if (first < table.head.size() && table.head[first] == line)
+      first = std::min(table.head.find('\n', first), table.head.size() - 1) + 1;
+  return {table.head.substr(0, first) + text + table.head.substr(first) + blocks + table.tail,
+          rounding_mm, off};
 }
 
 }  // namespace trueaxis

@@ -36,23 +36,34 @@ std::vector<WrittenFile> files_of_earlier_run(const std::string& result_path,
   return earlier;
 }
 
-EarlierRun take_away_earlier(Outputs& outputs, const Job& job,
+/// A table of this job is there only if it may be run: one that was changed gets another name.
+EarlierRun take_away_earlier(Outputs& outputs, const JobResult& result,
                              const std::vector<ResultFile>& files) {
   EarlierRun said;
+  std::vector<std::string> tables;
+  if (!has_table(result)) {
+    tables.push_back("table.csv");
+    for (const ControlTable& output : result.job.outputs) tables.push_back(output.file);
+  }
   for (const WrittenFile& file : files_of_earlier_run(outputs.in_folder("result.json"), files)) {
     const std::string place = outputs.in_folder(file.name);
-    const bool table =
-        file.name == "table.csv" ||
-        std::ranges::find(job.outputs, file.name, &ControlTable::file) != job.outputs.end();
-    if (table || !std::filesystem::exists(place)) continue;
+    if (!std::filesystem::exists(place)) continue;
+    const bool table = std::ranges::find(tables, file.name) != tables.end();
     if (outputs.remove_unchanged(place, file.hash)) {
-      said.removed += "gone   " + place + ": from an earlier job\n";
-    } else {
+      if (!table) said.removed += "gone   " + place + ": from an earlier job\n";
+      std::erase(tables, file.name);
+    } else if (!table) {
       said.kept += "warning: " + place +
                    " is from an earlier job and was changed since: TrueAxis keeps it, but it does "
                    "not belong to this result\n";
     }
   }
+  for (const std::string& table : tables)
+    if (const std::string name = outputs.set_aside(outputs.in_folder(table)); !name.empty())
+      said.kept += "warning: " + outputs.in_folder(table) +
+                   " is not of this job, which makes "
+                   "none: TrueAxis keeps it as " +
+                   name + "\n";
   return said;
 }
 
@@ -76,12 +87,7 @@ void name_job_files(Outputs& outputs, const JobFile& file, const std::string& fo
 EarlierRun write_job_files(Outputs& outputs, const JobResult& result,
                            const std::vector<ResultFile>& files) {
   for (const ResultFile& file : files) outputs.write(outputs.in_folder(file.name), file.text);
-  if (!has_table(result)) {
-    outputs.remove_earlier(outputs.in_folder("table.csv"));
-    for (const ControlTable& output : result.job.outputs)
-      outputs.remove_earlier(outputs.in_folder(output.file));
-  }
-  EarlierRun earlier = take_away_earlier(outputs, result.job, files);
+  EarlierRun earlier = take_away_earlier(outputs, result, files);
   outputs.commit();
   return earlier;
 }

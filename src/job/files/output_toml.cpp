@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "format/file.hpp"
 #include "job/files/job_toml_parts.hpp"
+#include "nc/lexer.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -18,11 +23,36 @@ const char* usual_name(ControlFormat format) {
   return names[static_cast<std::size_t>(format)];
 }
 
+/// What the lines before the blocks put into force that the blocks are not made for, and what to
+/// do; empty: nothing.
+std::string against_blocks(const std::string& head, bool x_is_diameter) {
+  std::vector<Diagnostic> other;  // words that only the shop's control knows
+  const nc::Lexed program = nc::lex(head, "", other);
+  std::map<std::string, std::string> wrong;  // by what a later word ends
+  for (const nc::Word& word : program.words) {
+    const auto is = [&](char letter, std::initializer_list<double> numbers) {
+      return word.letter == letter && std::ranges::find(numbers, word.number) != numbers.end();
+    };
+    if (is('G', {20, 70})) wrong["unit"] = "sets inches, and the blocks are in mm: set G21";
+    if (is('G', {21, 71})) wrong.erase("unit");
+    if (is('G', {91})) wrong["distance"] = "sets distances (G91): set G90, the blocks are places";
+    if (is('G', {90})) wrong.erase("distance");
+    if (is('G', {7, 8})) wrong.erase("x");
+    if (is('G', {7}) && !x_is_diameter) wrong["x"] = "sets diameters (G7), and x is \"radius\"";
+    if (is('G', {8}) && x_is_diameter) wrong["x"] = "sets radii (G8), and x is \"diameter\"";
+    if (is('G', {41, 42, 41.1, 42.1}))
+      wrong["nose"] = "offsets the nose (G41, G42), and the blocks are of its centre: set G40";
+    if (is('G', {40})) wrong.erase("nose");
+    if (is('M', {2, 30})) wrong["end"] = "ends the program before the blocks";
+  }
+  return wrong.empty() ? "" : wrong.begin()->second;
+}
+
 /// What the shop has before and after the blocks: a template with a line `( CUTTING BLOCK )`.
 void read_template(TomlTable& table, ControlTable& out, std::vector<std::string>& templates) {
   const auto path = table.maybe_path("template");
   if (!path) {
-    out.head = "G90\n";
+    out.head = "G21 G90\n";
     out.tail = "M30\n";
     return;
   }
@@ -41,6 +71,8 @@ void read_template(TomlTable& table, ControlTable& out, std::vector<std::string>
   out.head = text.substr(0, at);
   const std::size_t rest = text.find('\n', at);
   out.tail = rest == std::string::npos ? "" : text.substr(rest + 1);
+  if (const std::string wrong = against_blocks(out.head, out.x_is_diameter); !wrong.empty())
+    table.complain("template", wrong);
 }
 
 }  // namespace
