@@ -45,7 +45,6 @@ std::string default_folder(const std::string& path) {
 
 void print(const JobResult& result, const Outputs& outputs, const std::vector<ResultFile>& files,
            const EarlierRun& earlier, bool verbose) {
-  std::cerr << earlier.kept;
   if (verbose)
     std::cout << job_text(result);
   else
@@ -60,6 +59,7 @@ void print(const JobResult& result, const Outputs& outputs, const std::vector<Re
   std::cout << earlier.removed << "report " << outputs.in_folder("report.html")
             << ", next to it result.json\n";
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
+  std::cerr << earlier.kept;
 }
 
 int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {

@@ -293,9 +293,12 @@ void Outputs::write(const std::string& path, std::string_view content) {
 std::string Outputs::set_aside(const std::string& path) {
   expects(checked_, "outputs that were checked");
   const auto place = std::ranges::find(places_, path, &Place::path);
-  if (is_standard_output(path) || schema_of_file(path) != place->schema) return "";
+  std::error_code error;
+  if (is_standard_output(path) || !fs::exists(fs::symlink_status(path, error)) ||
+      schema_of_file(path) != place->schema)
+    return "";
   std::string name = path + ".kept";
-  for (int n = 2; fs::exists(fs::symlink_status(name)); ++n)
+  for (int n = 2; fs::exists(fs::symlink_status(name, error)); ++n)
     name = fmt::format("{}.kept{}", path, n);
   earlier_.push_back({path, name});
   return name;

@@ -56,7 +56,7 @@ TEST_F(RunCommand, ToleranceThatUExceedsIsNotProven) {
   EXPECT_TRUE(contains(first_line(done.out), "tolerance 0.1")) << first_line(done.out);
   EXPECT_EQ(files_in(folder_ / "out"),
             (std::vector<std::string>{"diagnosis_1_cylinder.json", "readings_1_cylinder.csv",
-                                      "report.html", "result.json"}));
+                                      "report.html", "result.json", "table.csv.kept"}));
 }
 
 TEST_F(RunCommand, ActuatorThatCannotFollow) {

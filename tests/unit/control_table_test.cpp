@@ -141,11 +141,12 @@ TEST(ControlTables, ProgramsSayRadiusAndDiameterAndBothFeeds) {
   for (const bool diameter : {false, true}) {
     ControlTable table = table_of(ControlFormat::servo_nc);
     table.x_is_diameter = table.minutes = diameter;
-    table.head = "G55\n";
+    table.head = "%\nO7 (MINE)\nG55\n";
     table.tail = "M29\n";
     const MadeControlTable made = make_control_table(correction(), table);
-    const std::vector<std::string> lines = lines_of(made.text);
-    EXPECT_EQ(lines[2], "G55");
+    ASSERT_TRUE(made.text.starts_with("%\nO7 (MINE)\n( schema: ")) << made.text.substr(0, 60);
+    const std::vector<std::string> lines = lines_of(made.text.substr(12));
+    EXPECT_EQ(lines[3], "G55");
     EXPECT_EQ(lines.back(), "M29");
     std::size_t blocks = 0;
     for (std::string line : lines) {
@@ -170,10 +171,10 @@ TEST(ControlTables, ProgramsSayRadiusAndDiameterAndBothFeeds) {
     EXPECT_NEAR(made.off.largest_mm, chord_mm, 0.01 * chord_mm + made.rounding_mm);
     // Inverse time holds for the blocks of the cut and for nothing else; the first block says in a
     // comment where the nose must be, and only feeds there.
-    ASSERT_TRUE(lines[6].starts_with("G1 C")) << lines[6];
-    EXPECT_NE(lines[3].find(lines[6].substr(3, lines[6].find(" F") - 3)), std::string::npos);
-    EXPECT_EQ(lines[5], "G94");
-    EXPECT_EQ(lines[7], "G93");
+    ASSERT_TRUE(lines[7].starts_with("G1 C")) << lines[7];
+    EXPECT_NE(lines[4].find(lines[7].substr(3, lines[7].find(" F") - 3)), std::string::npos);
+    EXPECT_EQ(lines[6], "G94");
+    EXPECT_EQ(lines[8], "G93");
     EXPECT_EQ(lines[lines.size() - 2], "G94");
   }
 }
