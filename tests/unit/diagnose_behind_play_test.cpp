@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnose/refit/behind_play.hpp"
+#include "measure/passes.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis::testing {
@@ -60,6 +62,23 @@ TEST(BehindPlay, IsThePlayOperatorOnTheWayOfX) {
       }
     }
   }
+}
+
+// A vibration was then what it was when X took the play up: at a constant speed time goes with C.
+TEST(BehindPlay, IsOfTheTimeOfItsPlace) {
+  const ProbeStream stream = arguments({});
+  const BehindPlay behind = behind_play(cylinder_that_runs_out(stream), {}, {}, 0.004);
+  std::size_t held = 0;
+  for (const Pass& pass : find_passes(stream)) {
+    const auto [c, t] = std::pair(stream.c_rad[pass.begin], stream.time_s[pass.begin]);
+    const double speed = (stream.c_rad[pass.end - 1] - c) / (stream.time_s[pass.end - 1] - t);
+    for (std::size_t i = pass.begin; i < pass.end; ++i) {
+      if ((behind.c_rad[i] - c) * speed <= 0.0) continue;  // before the pass, all of one time
+      EXPECT_NEAR(behind.time_s[i], t + (behind.c_rad[i] - c) / speed, 1e-9) << i;
+      held += behind.c_rad[i] != stream.c_rad[i];
+    }
+  }
+  EXPECT_GT(held, stream.size() / 10);
 }
 
 // Never taken up: X goes no farther than to and fro within the play.

@@ -31,21 +31,25 @@ struct Way {
   }
 };
 
-/// Where X took the play up last.
+/// Where X took the play up last, and when.
 struct Play {
-  double play_mm, reading_mm = 0.0;
-  double c = 0.0, z = 0.0, side = 0.0;
+  double play_mm, reading_mm = 0.0, side = 0.0;
+  double c = 0.0, z = 0.0, time = 0.0;
 
-  void start(double x_mm, double at_c, double at_z) {
-    reading_mm = x_mm, c = at_c, z = at_z, side = 0.0;
+  void start(double x_mm, const Way& way) {
+    reading_mm = x_mm, side = 0.0;
+    be_at(way, 0);
   }
-  void take_up(double x_mm, double at_c, double at_z) {
+  void take_up(double x_mm, const Way& way, std::size_t k) {
     const double ahead = x_mm - reading_mm;
     if (std::abs(ahead) < 0.5 * play_mm || ahead == 0.0) return;
     side = ahead > 0.0 ? 1.0 : -1.0;
     reading_mm = x_mm - 0.5 * side * play_mm;
-    c = at_c, z = at_z;
+    be_at(way, k);
   }
+
+ private:
+  void be_at(const Way& way, std::size_t k) { c = way.c[k], z = way.z[k], time = way.time[k]; }
 };
 
 class Follower {
@@ -53,7 +57,8 @@ class Follower {
   Follower(const LinearisationPoint& point, std::span<const Hypothesis> terms,
            std::span<const double> linear, double play_mm)
       : point_(point), terms_(terms), linear_(linear), play_{play_mm} {
-    for (auto* column : {&out.c_rad, &out.z_mm, &out.side}) column->reserve(point.size());
+    for (auto* column : {&out.c_rad, &out.z_mm, &out.time_s, &out.side})
+      column->reserve(point.size());
     for (std::size_t p = 0; p < point.passes.size(); ++p)
       for (std::size_t i = point.passes[p].begin; i < point.passes[p].end;) i = follow(p, i);
   }
@@ -73,11 +78,12 @@ class Follower {
     }
     const std::vector<double> x_mm = x_along(way, number, now);
     std::size_t next = 0;
-    if (reading == pass.begin) play_.start(x_mm[0], way.c[0], way.z[0]);
+    if (reading == pass.begin) play_.start(x_mm[0], way);
     for (std::size_t k = 0; k < x_mm.size(); ++k) {
-      play_.take_up(x_mm[k], way.c[k], way.z[k]);
+      play_.take_up(x_mm[k], way, k);
       if (k != way.reading[next]) continue;
-      out.c_rad.push_back(play_.c), out.z_mm.push_back(play_.z), out.side.push_back(play_.side);
+      out.c_rad.push_back(play_.c), out.z_mm.push_back(play_.z);
+      out.time_s.push_back(play_.time), out.side.push_back(play_.side);
       ++next;
     }
     return end;

@@ -12,8 +12,8 @@ namespace trueaxis::diagnose_detail {
 /// grew there and + b/2 if it fell (play operator, Krasnosel'skii and Pokrovskii 1989; Eq. 53c).
 /// X turns back where it stands still, so that to first order the place is that of every size near.
 struct BehindPlay {
-  std::vector<double> c_rad, z_mm;  ///< of the place
-  std::vector<double> side;         ///< 1: X grew; −1: it fell; 0: it never took the play up
+  std::vector<double> c_rad, z_mm, time_s;  ///< of the place, and when X was there
+  std::vector<double> side;  ///< 1: X grew; −1: it fell; 0: it never took the play up
 };
 
 /// @param point about which X is as it is probed, one entry a reading

@@ -293,6 +293,7 @@ void RelinearisedFit::take_up_play(const Eigen::VectorXd& found, const Place& pl
   ProbeStream moved = moved_ ? *moved_ : ideal_.stream;
   moved.c_rad = std::move(behind.c_rad);
   if (moved.has_position()) moved.position_mm = std::move(behind.z_mm);
+  if (!moved.time_s.empty()) moved.time_s = std::move(behind.time_s);
   play_side_ = SharedColumn(std::move(behind.side));
   if (!moved_) turned_mm_.assign(straight_mm.size(), 0.0);
   moved_ = std::move(moved);
