@@ -19,7 +19,7 @@ class Siemens final : public Dialect {
     remark("X is a radius; call the probe, its offset and the C axis before");
     line("DEF INT K, ERR");
     line("DEF REAL CR, CW, ZP, XS");
-    line("G71 G18 G40 G60 G90 G94 DIAMOF " + limits_.offset());
+    line("G710 G18 G40 G60 G90 G94 DIAMOF " + limits_.offset());
     line(fmt::format("IF ($AA_IW[X] < {}) AND ($AA_IW[Z] < {})", number(limits_.clear_x_mm()),
                      number(limits_.clear_z_mm())));
     remark("the probe is not clear of the part");
