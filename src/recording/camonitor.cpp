@@ -35,12 +35,14 @@ bool read_sample(std::string_view line, std::size_t number, Channels& channels) 
   return true;
 }
 
-/// The value of a channel at an instant, by linear interpolation; NaN outside of its samples.
-double value_at(const std::vector<Sample>& samples, double time_s, std::size_t& from) {
+/// The value of a channel at an instant, by linear interpolation; NaN outside of its samples, but
+/// for one that stays.
+double value_at(const std::vector<Sample>& samples, double time_s, bool stays, std::size_t& from) {
   while (from + 1 < samples.size() && samples[from + 1].time_s <= time_s) ++from;
   const Sample& a = samples[from];
   if (time_s == a.time_s) return a.value;
-  if (time_s < a.time_s || from + 1 == samples.size()) return std::nan("");
+  if (time_s < a.time_s) return std::nan("");
+  if (from + 1 == samples.size()) return stays ? a.value : std::nan("");
   const Sample& b = samples[from + 1];
   return a.value + (b.value - a.value) * (time_s - a.time_s) / (b.time_s - a.time_s);
 }
@@ -129,11 +131,23 @@ bool read_camonitor(const RecordedText& text, const ColumnsSaid& said, Recording
   const std::size_t reading = column_of_readings(out, said).value_or(0);
   const auto base = std::next(channels.begin(), static_cast<std::ptrdiff_t>(reading));
   std::string joined;
+  // A channel that does not change sends nothing. One that ran on as an angle, or of a log with
+  // other lines (disconnected), may have ended.
+  std::vector<char> stays(channels.size(), others == 0);
+  std::size_t channel = 0;
   for (auto& [name, of] : channels) {
+    char& stays_now = stays[channel++];
     refuse_falling_clock(name, of, out);
     std::ranges::stable_sort(of, {}, &Sample::time_s);
     if (&of != &base->second) add_to_list(joined, name);
-    if (!unwrap_degrees(of)) continue;
+    if (!unwrap_degrees(of)) {
+      if (stays_now && of.back().time_s < base->second.back().time_s)
+        out.notes.push_back(
+            fmt::format("{} sends nothing for the last {:.3g} s: read as at rest at {:.6g}", name,
+                        base->second.back().time_s - of.back().time_s, of.back().value));
+      continue;
+    }
+    stays_now = false;
     const double deg_per_s = deg_per_s_of(of);
     refuse_long_steps(name, of, deg_per_s, out);
     out.notes.push_back(
@@ -149,7 +163,10 @@ bool read_camonitor(const RecordedText& text, const ColumnsSaid& said, Recording
   for (const Sample& sample : base->second) {
     std::vector<double> row;
     std::size_t k = 0;
-    for (const auto& [name, of] : channels) row.push_back(value_at(of, sample.time_s, from[k++]));
+    for (const auto& [name, of] : channels) {
+      row.push_back(value_at(of, sample.time_s, stays[k] != 0, from[k]));
+      ++k;
+    }
     if (std::ranges::any_of(row, [](double value) { return std::isnan(value); })) {
       ++outside;
       continue;

@@ -223,6 +223,24 @@ TEST_F(RecordingDoubts, TheInstantsOfCamonitorAreThoseOfTheReadings) {
   EXPECT_EQ(face.reading_mm, (Readings{40.0, 44.0, 48.0, 52.0}));
 }
 
+// EPICS sends what changes: a section has one sample of Z, and a slide that stops has no more. A
+// channel that was disconnected may have ended.
+TEST_F(RecordingDoubts, AChannelOfCamonitorThatSendsNothingIsAtRest) {
+  std::string log, z = "A:Z 2026-03-01 12:00:00.0 5\n";
+  for (int i = 0; i < 8; ++i)
+    for (const char* one : {"X", "C"})
+      log += fmt::format("A:{} 2026-03-01 12:00:0{}.0 {}\n", one, i, one[0] == 'X' ? 40 : 45 * i);
+  const ProbeStream section = read(log + z, "", false);
+  EXPECT_EQ(section.position_mm, Readings(8, 5.0));
+  expect_said(section.read_as[1] + section.read_as[2],
+              "A:Z sends nothing for the last 7 s: read as at rest at 5");
+  z += "A:Z 2026-03-01 12:00:02.0 9\n";
+  EXPECT_EQ(read(log + z, "", false).position_mm,
+            (Readings{5.0, 7.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0}));
+  z += "A:Z 2026-03-01 12:00:03.0 *** disconnected\n";
+  EXPECT_EQ(read(log + z, "", false).position_mm, (Readings{5.0, 7.0, 9.0}));
+}
+
 TEST_F(RecordingDoubts, ACapitalTIsNoTime) {
   EXPECT_TRUE(read("X 40.5 C 0 Z 1 T 5\nX 40.25 C 90 Z 2 T 5\n", "", false).time_s.empty());
   EXPECT_TRUE(read("T;Radius;C;Z\n20,5;40,5;0;1\n20,25;40,25;90;2\n").time_s.empty());
