@@ -127,7 +127,7 @@ TEST_F(EndsOfCut, AServoProgramFeedsFromWhereItSaysTheMachineMustStand) {
   const std::string program = read_text(folder_ / "out/servo.nc");
   const std::vector<std::string> orders = orders_of(program);
   ASSERT_GT(orders.size(), 5U);
-  EXPECT_EQ(orders[0], "G90");
+  EXPECT_EQ(orders[0], "G21 G90");
   EXPECT_EQ(orders[1], "G94");
   const auto first = numbers_in(orders[2].substr(3));
   ASSERT_EQ(orders[2].rfind("G1 C20.000000 X", 0), 0U) << orders[2];
