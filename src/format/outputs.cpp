@@ -318,20 +318,25 @@ bool Outputs::remove_unchanged(const std::string& path, const std::string& hash)
 }
 
 void Outputs::commit() {
+  const auto expect_moved = [](const std::string& path, const std::error_code& error) {
+    if (error)
+      throw InputError(path, "belongs to an earlier job and cannot be moved away (" +
+                                 error.message() + "): do not use it");
+  };
   for (OutputFile& file : files_) file.close();
+  std::error_code error;
+  for (const auto& [path, new_name] : earlier_) {  // before this run writes to the same place
+    if (new_name.empty()) continue;
+    fs::rename(path, new_name, error);
+    expect_moved(path, error);
+  }
   for (OutputFile& file : files_) file.commit();
   files_.clear();
   made_folder_ = false;
   for (const auto& [path, new_name] : earlier_) {
-    std::error_code error;
-    if (new_name.empty())
-      fs::remove(path, error);
-    else
-      fs::rename(path, new_name, error);
-    if (error) {
-      throw InputError(path, "belongs to an earlier job and cannot be moved away (" +
-                                 error.message() + "): do not use it");
-    }
+    if (!new_name.empty()) continue;
+    fs::remove(path, error);
+    expect_moved(path, error);
   }
 }
 

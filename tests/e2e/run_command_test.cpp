@@ -105,6 +105,19 @@ TEST_F(RunCommand, ARefusalLeavesNoEarlierTable) {
       << done.err << done.out;
 }
 
+TEST_F(RunCommand, ATableThatWasEditedIsKeptBesideTheNewOne) {
+  file("job.toml", simple_job(cylinder_reference));
+  ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
+  const std::string table = read_text(folder_ / "out/table.csv");
+  file("out/table.csv", table + "# mine\n");
+  const CommandStreams again = command("run job.toml -o out");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(contains(again.err, "keeps it as out/table.csv.kept")) << again.err;
+  EXPECT_EQ(read_text(folder_ / "out/table.csv.kept"), table + "# mine\n");
+  EXPECT_EQ(read_text(folder_ / "out/table.csv"), table);
+  EXPECT_EQ(command("run job.toml -o out").err, "");  // not again: nobody changed it since
+}
+
 TEST_F(RunCommand, TheSameBytesEveryTime) {
   const std::string job = shell_word(places::source() + "/data/jobs/shaft.toml");
   for (const char* folder : {"first", "second"})

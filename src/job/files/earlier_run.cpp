@@ -14,10 +14,9 @@ struct WrittenFile {
   std::string name, hash;  ///< in the folder of the results; content_hash() of what was written
 };
 
-/// What the run that left `result_path` wrote next to it and `now` does not name; empty if there is
-/// no such result. Names that are not plain are passed over.
-std::vector<WrittenFile> files_of_earlier_run(const std::string& result_path,
-                                              const std::vector<ResultFile>& now) {
+/// What the run that left `result_path` wrote next to it; empty if there is no such result. Names
+/// that are not plain are passed over.
+std::vector<WrittenFile> files_of_earlier_run(const std::string& result_path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(result_path, error)) return {};
   const Json json = Json::parse(read_file(result_path), nullptr, false);
@@ -30,8 +29,7 @@ std::vector<WrittenFile> files_of_earlier_run(const std::string& result_path,
     const std::string file = name.get<std::string>();
     const bool plain = !file.empty() && file != ".." && file != "." &&
                        file == std::filesystem::path(file).filename().string();
-    if (plain && std::ranges::find(now, file, &ResultFile::name) == now.end())
-      earlier.push_back({file, hash.get<std::string>()});
+    if (plain) earlier.push_back({file, hash.get<std::string>()});
   }
   return earlier;
 }
@@ -45,9 +43,16 @@ EarlierRun take_away_earlier(Outputs& outputs, const JobResult& result,
     tables.push_back("table.csv");
     for (const ControlTable& output : result.job.outputs) tables.push_back(output.file);
   }
-  for (const WrittenFile& file : files_of_earlier_run(outputs.in_folder("result.json"), files)) {
+  for (const WrittenFile& file : files_of_earlier_run(outputs.in_folder("result.json"))) {
     const std::string place = outputs.in_folder(file.name);
     if (!std::filesystem::exists(place)) continue;
+    if (std::ranges::find(files, file.name, &ResultFile::name) != files.end()) {
+      if (content_hash(read_file(place)) == file.hash) continue;
+      if (const std::string name = outputs.set_aside(place); !name.empty())
+        said.kept += "warning: " + place + " was changed since the job that made it: TrueAxis " +
+                     "keeps it as " + name + " and writes its own\n";
+      continue;
+    }
     const bool table = std::ranges::find(tables, file.name) != tables.end();
     if (outputs.remove_unchanged(place, file.hash)) {
       if (!table) said.removed += "gone   " + place + ": from an earlier job\n";
