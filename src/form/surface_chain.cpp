@@ -52,7 +52,7 @@ class Chain {
     state_.assign(orders_.size(), absent);
     found_.assign(orders_.size(), false);
     value_ = VectorXd::Zero(terms.size());
-    rounding_ = 1e-22 * (sums.squares / count_ + 1e-30);
+    rounding_ = 1e-22 * (sums.squares[0] / count_ + 1e-30);
     variance_ = std::max({squares_ / count_, least_variance_, rounding_});
     make_sizes();
     begin_by_largest();
@@ -107,7 +107,7 @@ class Chain {
     for (Index i = 0; i < m; ++i) {
       const Index at = base_columns_[static_cast<std::size_t>(i)];
       base_rows_.row(i) = sums.normal.row(at);
-      base_right_[i] = sums.right[at];
+      base_right_[i] = sums.right(at, 0);
       for (Index j = 0; j < m; ++j)
         square(i, j) = sums.normal(at, base_columns_[static_cast<std::size_t>(j)]);
     }
@@ -116,8 +116,8 @@ class Chain {
     const MatrixXd by_base = linear::product(base_inverse_, base_rows_);
     normal_ = std::move(sums.normal);
     normal_ -= linear::transposed_product(base_rows_, by_base);
-    right_ = sums.right - by_base.transpose() * base_right_;
-    squares_ = sums.squares - base_right_.dot(base_inverse_ * base_right_);
+    right_ = sums.right.col(0) - by_base.transpose() * base_right_;
+    squares_ = sums.squares[0] - base_right_.dot(base_inverse_ * base_right_);
   }
 
   /// Variances of the coefficients of an order that is there: from what is half their u to all that

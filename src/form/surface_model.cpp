@@ -89,7 +89,7 @@ void SurfaceModel::put_about_axis(const SurfaceReadings& readings) {
 }
 
 void SurfaceModel::sample() {
-  posterior_ = sample_surface(terms_, surface_sums(terms_, angle_rad_, t_, off_mm_),
+  posterior_ = sample_surface(terms_, surface_sums(terms_, angle_rad_, t_, {&off_mm_, 1}),
                               {.draws = std::max(options_.trials, least_draws),
                                .seed = options_.seed,
                                .least_noise_mm = options_.noise_mm.value_or(0.0)});
@@ -323,13 +323,11 @@ void SurfaceModel::add_taken_off(std::span<const std::vector<double>> columns_mm
                                  std::span<const double> correlation) {
   const auto count = static_cast<Index>(columns_mm.size());
   if (count == 0) return;
-  Eigen::MatrixXd right(terms_.size(), count);
-  SurfaceSums sums;
-  for (Index k = 0; k < count; ++k) {
-    const std::vector<double>& column = columns_mm[static_cast<std::size_t>(k)];
-    sums = surface_sums(terms_, angle_rad_, t_, kept_.empty() ? column : kept_of(column));
-    right.col(k) = sums.right;
-  }
+  std::vector<std::vector<double>> kept;
+  for (std::size_t k = 0; !kept_.empty() && k < columns_mm.size(); ++k)
+    kept.push_back(kept_of(columns_mm[k]));
+  const SurfaceSums sums = surface_sums(
+      terms_, angle_rad_, t_, kept_.empty() ? columns_mm : std::span(std::as_const(kept)));
   std::vector<Index> there;
   const VectorXd square = (mean_.array().square() + spread_.array().square()).matrix();
   for (Index j = 0; j < terms_.size(); ++j)
@@ -340,7 +338,7 @@ void SurfaceModel::add_taken_off(std::span<const std::vector<double>> columns_mm
     const Index a = there[static_cast<std::size_t>(i)];
     for (Index j = 0; j < m; ++j) normal(i, j) = sums.normal(a, there[static_cast<std::size_t>(j)]);
     normal(i, i) += noise_mm_ * noise_mm_ / square[a];
-    some.row(i) = right.row(a);
+    some.row(i) = sums.right.row(a);
   }
   const Eigen::MatrixXd solved = linear::solve_normal(normal, some);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(terms_.size(), count);

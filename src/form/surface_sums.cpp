@@ -23,18 +23,18 @@ constexpr double longer = 1.25;      // than the readings: where the cosines hav
 /// Sums over readings of f_d f_e, e ≤ d, and y f_d, times exp(ikθ).
 class Sums {
  public:
-  explicit Sums(const SurfaceTerms& terms)
+  Sums(const SurfaceTerms& terms, std::size_t right_sides)
       : degrees_(terms.degrees),
         orders_(2 * terms.orders),
-        sums_(MatrixXd::Zero(row_of(degrees_ + 1, degrees_ + 1), 2 * orders_ + 2)) {}
+        sums_(MatrixXd::Zero(row_of_right(static_cast<Index>(right_sides), 0), 2 * orders_ + 2)) {}
 
   void add(std::span<const double> angle_rad, std::span<const double> t,
-           std::span<const double> y_mm) {
+           std::span<const std::vector<double>> y_mm, std::size_t begin) {
     const auto n = static_cast<Index>(angle_rad.size());
     MatrixXd along(n, sums_.rows()), around(n, sums_.cols());
     for (Index i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      fill_along(along, i, t[at], y_mm[at]);
+      fill_along(along, i, t[at], y_mm, begin + at);
       around(i, 1) = std::cos(angle_rad[at]);
       around(i, orders_ + 2) = std::sin(angle_rad[at]);
     }
@@ -45,18 +45,23 @@ class Sums {
   }
 
   Complex product(Index d, Index e, Index k) const { return at(row_of(d, e), k); }
-  Complex with_y(Index d, Index k) const { return at(row_of(degrees_ + 1, d), k); }
+  Complex with_y(Index y, Index d, Index k) const { return at(row_of_right(y, d), k); }
 
  private:
   Complex at(Index row, Index k) const { return {sums_(row, k), sums_(row, orders_ + 1 + k)}; }
 
   static Index row_of(Index d, Index e) { return d * (d + 1) / 2 + e; }
+  Index row_of_right(Index y, Index d) const {
+    return row_of(degrees_ + 1, 0) + y * (degrees_ + 1) + d;
+  }
 
-  void fill_along(MatrixXd& along, Index i, double t, double y) const {
+  void fill_along(MatrixXd& along, Index i, double t, std::span<const std::vector<double>> y_mm,
+                  std::size_t reading) const {
     const Eigen::VectorXd f = form::along(static_cast<int>(degrees_), t);
     for (Index d = 0; d <= degrees_; ++d) {
       for (Index e = 0; e <= d; ++e) along(i, row_of(d, e)) = f[d] * f[e];
-      along(i, row_of(degrees_ + 1, d)) = y * f[d];
+      for (std::size_t y = 0; y < y_mm.size(); ++y)
+        along(i, row_of_right(static_cast<Index>(y), d)) = y_mm[y][reading] * f[d];
     }
   }
 
@@ -129,23 +134,27 @@ Eigen::VectorXd along(int degrees, double t) {
 }
 
 SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angle_rad,
-                         std::span<const double> t, std::span<const double> y_mm) {
-  Sums sums(terms);
+                         std::span<const double> t, std::span<const std::vector<double>> y_mm) {
+  Sums sums(terms, y_mm.size());
   SurfaceSums out;
-  out.count = y_mm.size();
-  for (std::size_t begin = 0; begin < y_mm.size(); begin += block) {
-    const std::size_t n = std::min(block, y_mm.size() - begin);
-    sums.add(angle_rad.subspan(begin, n), t.subspan(begin, n), y_mm.subspan(begin, n));
+  out.count = t.size();
+  for (std::size_t begin = 0; begin < t.size(); begin += block) {
+    const std::size_t n = std::min(block, t.size() - begin);
+    sums.add(angle_rad.subspan(begin, n), t.subspan(begin, n), y_mm, begin);
   }
-  for (const double y : y_mm) out.squares += y * y;
   out.normal = NormalMatrix(terms, sums).take();
-  out.right.resize(terms.size());
-  for (int n = 0; n <= terms.orders; ++n)
-    for (int d = 0; d <= terms.degrees_of(n); ++d) {
-      const Complex sum = sums.with_y(d, n);
-      out.right[terms.column(n, d)] = sum.real();
-      if (n > 0) out.right[terms.column(n, d) + 1] = sum.imag();
-    }
+  const auto right_sides = static_cast<Index>(y_mm.size());
+  out.right.resize(terms.size(), right_sides);
+  out.squares = Eigen::VectorXd::Zero(right_sides);
+  for (Index y = 0; y < right_sides; ++y) {
+    for (const double one : y_mm[static_cast<std::size_t>(y)]) out.squares[y] += one * one;
+    for (int n = 0; n <= terms.orders; ++n)
+      for (int d = 0; d <= terms.degrees_of(n); ++d) {
+        const Complex sum = sums.with_y(y, d, n);
+        out.right(terms.column(n, d), y) = sum.real();
+        if (n > 0) out.right(terms.column(n, d) + 1, y) = sum.imag();
+      }
+  }
   return out;
 }
 

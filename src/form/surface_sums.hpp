@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace trueaxis::form {
 
@@ -34,17 +35,16 @@ struct SurfaceTerms {
 /// f_0(t) … f_degrees(t).
 Eigen::VectorXd along(int degrees, double t);
 
-/// AᵀA, Aᵀy and yᵀy of the columns of a surface over readings.
+/// AᵀA of the columns of a surface over readings, and Aᵀy and yᵀy of each y.
 struct SurfaceSums {
-  Eigen::MatrixXd normal;
-  Eigen::VectorXd right;
-  double squares = 0.0;
+  Eigen::MatrixXd normal, right;
+  Eigen::VectorXd squares;
   std::size_t count = 0;
 };
 
 /// A product of two columns is a sum of products f_d f_e with exp(ikθ). AᵀA therefore takes
 /// N (D + 1) (D + 4) (2M + 1) steps for its (2M + 1)² (D + 1)² entries. Eq. 318.
 SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angle_rad,
-                         std::span<const double> t, std::span<const double> y_mm);
+                         std::span<const double> t, std::span<const std::vector<double>> y_mm);
 
 }  // namespace trueaxis::form

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/threads.hpp"
 #include "job/part_form_steps.hpp"
 #include "trueaxis/error.hpp"
 
@@ -111,9 +112,13 @@ void assess(Question& question, const FormTask& task, PartForm& out) {
       return;
     }
   }
-  out.probed = question.assess(false, false);
-  if (!out.motion.empty()) out.less_motion = question.assess(true, false);
-  if (!out.open.empty()) out.less_open = question.assess(true, true);
+  if (!out.motion.empty()) out.less_motion.emplace();
+  if (!out.open.empty()) out.less_open.emplace();
+  for_each_index(3, options.threads, [&](std::size_t k) {
+    if (k == 0) out.probed = question.assess(false, false);
+    if (k == 1 && out.less_motion) out.less_motion = question.assess(true, false);
+    if (k == 2 && out.less_open) out.less_open = question.assess(true, true);
+  });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/regression/size_prior.hpp"
@@ -73,8 +74,12 @@ struct Date {
   Square gram;
   Vector right, whole;  ///< products with the residuals; squares of the columns themselves
   Vector without;       ///< products without the two largest readings of a short side
-  Square settled_gram;  ///< without the readings at the step that are predicted across it
-  Vector settled_right;
+  struct Settled {
+    Square gram;
+    Vector right;
+  };
+  /// Without the readings at the step that are predicted across it; none: noise is white.
+  std::optional<Settled> settled;
 };
 
 /// The two readings that are farthest off on the shorter side of a step before the k-th.
@@ -106,6 +111,9 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
     to.cross.noalias() += own * taken.row(row);
     to.right += own * left(row);
   };
+  const auto remaining = [](const Sums& of) -> Square {
+    return of.gram - of.cross * of.cross.transpose();
+  };
   std::vector<Date> out;
   Sums before{Square::Zero(columns, columns), Vector::Zero(columns),
               Matrix::Zero(columns, taken.cols())};
@@ -124,9 +132,8 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
       add(row, own, with_after);
     }
     const Sums& sums = lags > 0 ? with_after : before;
-    out.push_back({reading, sums.gram - sums.cross * sums.cross.transpose(), sums.right,
-                   sums.gram.diagonal(), sums.right,
-                   before.gram - before.cross * before.cross.transpose(), before.right});
+    out.push_back({reading, remaining(sums), sums.right, sums.gram.diagonal(), sums.right, {}});
+    if (lags > 0) out.back().settled = {remaining(before), before.right};
     if (std::min(k, size - k) > static_cast<Index>(few) * columns) continue;
     for (const Index row : two_largest(left, k))
       out.back().without -= left(row) * ((row < k ? 1.0 : 0.0) * step.row(row).transpose() -
@@ -135,15 +142,25 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
   return out;
 }
 
-/// What the columns of a form take off the sum of squares.
-double gain_of(const std::vector<Index>& form, const Date& date, Square rest, Vector along) {
+/// What the columns of a form take off the sum of squares: a step of Cholesky's each.
+double gain_of(const std::vector<Index>& form, const Date& date, const Square& gram,
+               const Vector& right) {
+  std::array<std::array<double, most_columns>, most_columns> rest;
+  std::array<double, most_columns> along;
+  const std::size_t m = form.size();
+  for (std::size_t i = 0; i < m; ++i) {
+    along[i] = right(form[i]);
+    for (std::size_t j = i; j < m; ++j) rest[i][j] = gram(form[i], form[j]);
+  }
   double gain = 0.0;
-  for (const Index j : form) {  // a Cholesky step each
-    if (!(rest(j, j) > absorbed * date.whole(j))) continue;
-    gain += along(j) * along(j) / rest(j, j);
-    const Vector share = rest.col(j) / rest(j, j);
-    along -= share * along(j);
-    rest -= share * rest.row(j).eval();
+  for (std::size_t j = 0; j < m; ++j) {
+    if (!(rest[j][j] > absorbed * date.whole(form[j]))) continue;
+    gain += along[j] * along[j] / rest[j][j];
+    for (std::size_t i = j + 1; i < m; ++i) {
+      const double share = rest[j][i] / rest[j][j];
+      along[i] -= share * along[j];
+      for (std::size_t k = i; k < m; ++k) rest[i][k] -= share * rest[j][k];
+    }
   }
   return gain;
 }
@@ -162,8 +179,9 @@ const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
                              gain_of(form, date, date.gram, date.without) < kept * gain;
     const bool of_few = side < fewest;
     // In correlated noise one large innovation looks like a step, and dies out.
-    const bool passes = gain_of(form, date, date.settled_gram, date.settled_right) <
-                        std::min(gain, seen_step * std::max(rss - gain, 0.0) / freedom);
+    const bool passes =
+        date.settled && gain_of(form, date, date.settled->gram, date.settled->right) <
+                            std::min(gain, seen_step * std::max(rss - gain, 0.0) / freedom);
     gains.push_back(of_outliers || of_few || passes ? 0.0 : gain);
   }
   const auto top = std::ranges::max_element(gains);
