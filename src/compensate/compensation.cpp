@@ -13,6 +13,7 @@
 #include "compensate/between.hpp"
 #include "compensate/block_end.hpp"
 #include "machine/held_axes.hpp"
+#include "nc/mark.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -249,7 +250,8 @@ class NewProgram {
     positions.reserve(moves_.size());
     for (const auto& run : pieces_) positions.insert(positions.end(), run.begin(), run.end());
     nc::Written written = nc::write_program(task_.program, positions, task_.write);
-    out.text = std::move(written.text);
+    const bool changed = written.rewritten + written.inserted > 0;
+    out.text = changed ? nc::marked(std::move(written.text)) : std::move(written.text);
     out.blocks_rewritten = written.rewritten;
     out.blocks_inserted = written.inserted;
   }
@@ -295,6 +297,11 @@ ProgramCompensation compensate_program(const MachineModel& model, std::string te
                                        const std::string& file,
                                        const CompensationOptions& options) {
   options.validate();
+  if (const auto line = nc::marked_line(text))
+    throw InputError({Diagnostic{
+        file, *line, 0,
+        "the program was compensated already, and its errors would be "
+        "subtracted twice: compensate the program that it was made from, by all errors together"}});
   const ProgramAxes axes(model.machine());
   const nc::Program program =
       nc::read_program(std::move(text), file, axes.read_options(options.arc_tolerance_mm));

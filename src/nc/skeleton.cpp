@@ -6,12 +6,15 @@
 
 #include "nc/axes.hpp"
 #include "nc/lexer.hpp"
+#include "nc/mark.hpp"
 
 namespace trueaxis::nc {
 namespace {
 
-/// A program without its axis words, the blanks before them, and the lines that hold nothing else.
-std::string skeleton_of(std::string_view text) {
+/// A program without its axis words, the blanks before them, the lines that hold nothing else, and
+/// the mark.
+std::string skeleton_of(std::string_view program) {
+  const std::string text = without_mark(std::string(program));
   std::vector<Diagnostic> ignored;
   const Lexed lexed = lex(text, "", ignored);
   std::string out;
@@ -22,12 +25,12 @@ std::string skeleton_of(std::string_view text) {
     for (std::uint32_t i = 0; i < line.word_count; ++i) {
       const Word& word = lexed.words[line.first_word + i];
       if (axis_of(word.letter) == axis_count) continue;
-      out.append(text.substr(copied, word.letter_at - copied));
+      out.append(text, copied, word.letter_at - copied);
       while (out.size() > begin && is_blank(out.back())) out.pop_back();
       copied = word.end;
       axes = true;
     }
-    out.append(text.substr(copied, line.end - copied));
+    out.append(text, copied, line.end - copied);
     if (axes && out.find_first_not_of("/0123456789 \t", begin) == std::string::npos)
       out.resize(begin);
     else

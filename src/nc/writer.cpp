@@ -14,7 +14,6 @@ namespace trueaxis::nc {
 namespace {
 
 /// The limit of LinuxCNC's interpreter with the CR of the line's end, the shortest that is known.
-constexpr std::size_t longest_line = 251;
 
 bool is_one_of(char letter, std::string_view letters) {
   return letters.find(letter) != std::string_view::npos;

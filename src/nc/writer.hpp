@@ -16,6 +16,8 @@ struct NewPosition {
   AxisValues words{};  ///< mm, rad
 };
 
+inline constexpr std::size_t longest_line = 251;  ///< characters that LinuxCNC takes
+
 struct WriteOptions {
   int linear_decimals = 4, angle_decimals = 5;  ///< or those of the source, where it has more
   AxisSet axes = all_axes;                      ///< that the machine has

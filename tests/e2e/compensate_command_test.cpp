@@ -13,6 +13,7 @@
 #include "support/nc_programs.hpp"
 #include "support/places.hpp"
 #include "support/trunnion.hpp"
+#include "support/without_comments.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -250,7 +251,8 @@ TEST_F(CompensateCommand, PrintsWhatTheDocumentationShows) {
   EXPECT_EQ(done.out, block.substr(block.find('\n') + 1));
 }
 
-/// The calls of LinuxCNC's interpreter: line numbers of the program and names, and the moves.
+/// The calls of LinuxCNC's interpreter but the mark's: line numbers of the program and names, and
+/// the moves.
 std::vector<std::string> calls(const fs::path& folder, const std::string& program) {
   const auto done = shell("cd " + shell_word(folder) + " && rs274 -t tool.tbl -g " + program);
   EXPECT_EQ(done.exit_code, 0) << done.output;
@@ -259,7 +261,8 @@ std::vector<std::string> calls(const fs::path& folder, const std::string& progra
   const std::regex call(R"(\s*\d+ (N\S+)\s+([A-Z_0-9]+)\(.*)");
   std::smatch found;
   for (std::string line; std::getline(lines, line);)
-    if (std::regex_match(line, found, call)) out.push_back(found[1].str() + ' ' + found[2].str());
+    if (!contains(line, "COMPENSATED BY TRUEAXIS") && std::regex_match(line, found, call))
+      out.push_back(found[1].str() + ' ' + found[2].str());
   return out;
 }
 
@@ -338,7 +341,8 @@ TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {
   const auto done = shell("cd " + shell_word(folder_) + " && /usr/bin/python3 " + places::source() +
                           "/tests/e2e/linuxcnc_moves.py out.nc x.var moves.txt");
   ASSERT_EQ(done.exit_code, 0) << done.output;
-  std::istringstream moves(read_text(folder_ / "moves.txt")), lines(read_text(folder_ / "out.nc"));
+  std::istringstream moves(read_text(folder_ / "moves.txt")),
+      lines(without_comments(read_text(folder_ / "out.nc")));
   std::array<double, 6> words{};
   int compared = 0;
   double factor = 1.0;

@@ -11,7 +11,8 @@ namespace {
 constexpr double decimals_mm = 0.5e-4 * 1.7320508 + 2.0 * 0.5e-5 * rad_per_deg * 200.0;
 
 const std::string holes =
-    "%\nO100 (DRILL)\nG21 G90 G94 G54\nT1 M6 S2000 M3\nG0 X0 Y0 Z100 B30 C45\n"
+    "%\nO100 (DRILL)\nG21 G90 G94 G54\nT1 M6 S2000 M3\nG0 X0 Y0 Z100 B30 "
+    "C45\n"
     "N10 G99 G81 X10 Y10 Z-12.5 R2 F200 M8 (hole 1, Z R)\nN20 X20.\nN30 Y20. (hole 3)\n"
     "/N35 X25.\nN40 G98 G82 X30 Z-8 P0.5 L2\nN50 G83 X40 Z-20 Q5. R3\nN55 Y30 ; on\nN60 G80\n"
     "G0 Z100 M9\nG0 B-20 C-70\nX0 Y0 Z10\nG99 G81 Z-5 R1\nG91 X5. K3\nX2. Y-3 Z-4 R-8\nG90 G80\n"
@@ -55,9 +56,10 @@ TEST_F(DrillingCycles, AreWhereTheSourceHasThem) {
     EXPECT_NEAR(value_of(result("r.json").at("error_before").at("position")), before, 1e-9);
     // No cycle is left, and every word that is not a position of a cycle stays.
     EXPECT_FALSE(std::regex_search(out, std::regex("G8[123]|G9[89]")));
-    for (const char* kept : {"%\nO100 (DRILL)\nG21 G90 G94 G54\nT1 M6 S2000 M3\n", "N10 G0 X",
-                             " F200 M8 (hole 1, Z R)\n", "(hole 3)\n", "/N35 X", " ; on\n",
-                             "N60 G80\n", " M9\n", "M30\n%\n"})
+    for (const char* kept :
+         {"%\nO100 (DRILL)\nG21 G90 G94 G54 (COMPENSATED BY TRUEAXIS)\nT1 M6 S2000 M3\n",
+          "N10 G0 X", " F200 M8 (hole 1, Z R)\n", "(hole 3)\n", "/N35 X", " ; on\n", "N60 G80\n",
+          " M9\n", "M30\n%\n"})
       EXPECT_TRUE(contains(out, kept)) << kept << '\n' << out;
   }
 }

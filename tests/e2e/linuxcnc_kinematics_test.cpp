@@ -11,6 +11,7 @@
 #include "support/command_fixture.hpp"
 #include "support/places.hpp"
 #include "support/trunnion.hpp"
+#include "support/without_comments.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -150,7 +151,7 @@ std::vector<Joints> random_walk(std::uint64_t seed, double step_deg = 4.0) {
 std::vector<Joints> joints_of(const std::string& program) {
   std::vector<Joints> out;
   Joints q{};
-  std::istringstream lines(program);
+  std::istringstream lines(without_comments(program));
   for (std::string line; std::getline(lines, line);) {
     bool moves = false;
     for (std::size_t k = 0; k < 5; ++k) {

@@ -2,6 +2,7 @@
 // A compensated program on its whole path, ends of blocks and between them, by matrices and a
 // control of the test's own: it comes out worse nowhere, and what is said of it is the largest.
 #include "support/bc_trunnion.hpp"
+#include "support/without_comments.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -71,7 +72,7 @@ class WholePath : public CommandTest {
 
   std::vector<std::string> rotary_words(const std::string& name) {
     std::vector<std::string> out;
-    std::istringstream lines(read_text(folder_ / name));
+    std::istringstream lines(without_comments(read_text(folder_ / name)));
     for (std::string line; std::getline(lines, line);)
       for (std::size_t i = 0; i < line.size(); ++i)
         if (line[i] == 'B' || line[i] == 'C') out.push_back(line.substr(i, line.find(' ', i) - i));

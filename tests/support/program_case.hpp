@@ -10,6 +10,7 @@
 
 #include "support/chain_matrices.hpp"
 #include "support/random_machine.hpp"
+#include "support/without_comments.hpp"
 #include "trueaxis/compensation.hpp"
 
 /// Programs of random machines as text, and the numbers that a new text says.
@@ -32,7 +33,7 @@ inline std::string block(const Machine& machine, const std::array<double, axis_c
 /// The words of every line that has an axis word, missing ones as before; mm and rad.
 inline std::vector<std::array<double, axis_count>> words_of(const std::string& text) {
   std::vector<std::array<double, axis_count>> out;
-  std::istringstream lines(text);
+  std::istringstream lines(without_comments(text));
   std::array<double, axis_count> words{};
   for (std::string line; std::getline(lines, line);) {
     bool moves = false;
