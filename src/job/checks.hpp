@@ -38,8 +38,8 @@ extern const JobCheck findings_reproduced;
 /// "coaxiality at most 5.9 µm with the table, 221 µm without it" as a reason.
 Reason expected_cut(const PlannedJob& job, const CutNumbers& cut);
 
-/// The part slipped while one of the references of a datum system was probed: the others may be of
-/// the part as it was before.
+/// The part slipped while one of the references was probed: the others may be of the part as it was
+/// before.
 extern const JobCheck slipped_between_references;
 
 /// The first reference of a common datum that is off its axis by more than the tolerance.

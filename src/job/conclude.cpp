@@ -52,7 +52,8 @@ void plan_cut(PlannedJob& plan) {
 PlannedJob planned(IdentifiedJob identified) {
   PlannedJob plan{std::move(identified)};
   require_stock(plan);
-  if (!part_slipped(plan).empty() && !plan.agreement.disagreements.empty()) plan.agreement = {};
+  const bool slipped = !part_slipped(plan).empty() || !slipped_between_references(plan).empty();
+  if (slipped && !plan.agreement.disagreements.empty()) plan.agreement = {};
   if (!first_found(Weight::forbids, CheckedAt::references, {plan, {}}).empty()) return plan;
   try {
     for (std::size_t i = 0; i < plan.fits.size(); ++i)
@@ -67,14 +68,16 @@ PlannedJob planned(IdentifiedJob identified) {
 /// Takes what says where the part is out of the fits of every reference of which that is not known.
 void withhold_axes(JobResult& result) {
   result.axis_unknown.resize(result.fits.size());
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i]) continue;
-    Diagnosis& diagnosis = *result.diagnoses[i];
-    result.axis_unknown[i] = why_axis_unknown(result.streams[i], diagnosis);
-    if (!result.axis_unknown[i]) continue;
-    const char* code = to_string(result.axis_unknown[i]->code);
-    withhold_axis(result.fits[i], code);
-    withhold_axis(diagnosis, code);
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    std::optional<Reason>& why = result.axis_unknown[i];
+    auto* diagnosis =
+        i < result.diagnoses.size() && result.diagnoses[i] ? &*result.diagnoses[i] : nullptr;
+    if (diagnosis) why = why_axis_unknown(result.streams[i], *diagnosis);
+    if (const auto slipped = slipped_since(result, i); slipped && !why)
+      why = Reason{ReasonCode::slipped_between_references, {*slipped}};
+    if (!why) continue;
+    withhold_axis(result.fits[i], to_string(why->code));
+    if (diagnosis) withhold_axis(*diagnosis, to_string(why->code));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "correct/coaxiality_distribution.hpp"
 #include "job/checks.hpp"
 #include "job/references.hpp"
+#include "job/slip.hpp"
 
 namespace trueaxis {
 namespace {
@@ -43,12 +44,10 @@ Reasons off_the_datum(const PlannedJob& result, bool members, ReasonCode code) {
 }
 
 Reasons find_slip(const CheckInput& in) {
-  if (!in.job.datum || !in.job.target_axis || in.job.fits.size() < 2) return {};
-  return first_of_references(in.job, [&](std::size_t i) {
-    const bool slipped = i < in.job.diagnoses.size() && in.job.diagnoses[i] &&
-                         in.job.diagnoses[i]->slip() != nullptr;
-    return slipped ? std::optional(Reason{ReasonCode::slipped_between_references, {i}})
-                   : std::nullopt;
+  return first_of_references(in.job, [&](std::size_t i) -> std::optional<Reason> {
+    if (const auto slipped = slipped_since(in.job, i))
+      return Reason{ReasonCode::slipped_between_references, {*slipped}};
+    return {};
   });
 }
 
@@ -68,7 +67,7 @@ constexpr Threshold beyond_tolerance[] = {
 }  // namespace
 
 constinit const JobCheck slipped_between_references{
-    "slipped_between_references", CheckedAt::cut, Weight::leaves_open, {}, find_slip};
+    "slipped_between_references", CheckedAt::references, Weight::leaves_open, {}, find_slip};
 constinit const JobCheck datum_members_apart{"datum_members_apart", CheckedAt::cut,
                                              Weight::leaves_open, beyond_tolerance,
                                              find_members_apart};

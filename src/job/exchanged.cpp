@@ -7,6 +7,7 @@
 #include "fit/plausible.hpp"
 #include "job/mistakes.hpp"
 #include "math/statistics.hpp"
+#include "measure/feature.hpp"
 
 namespace trueaxis {
 std::optional<Reason> exchanged_streams(const IdentifiedJob &result) {
@@ -17,7 +18,9 @@ std::optional<Reason> exchanged_streams(const IdentifiedJob &result) {
       if (of_i.surface == of_j.surface || of_i.profile || of_j.profile ||
           result.streams[i].kind != result.streams[j].kind || a.status == FitStatus::too_few ||
           b.status == FitStatus::too_few || of_i.surface == SurfaceKind::section ||
-          of_j.surface == SurfaceKind::section)
+          of_j.surface == SurfaceKind::section ||
+          states_other_feature(result.streams[i], of_j.bore) ||
+          states_other_feature(result.streams[j], of_i.bore))
         continue;
       const double a_mm = left_mm(result.streams[i], a), b_mm = left_mm(result.streams[j], b);
       const FitResult a_by_j = fit(result.streams[i], of_j), b_by_i = fit(result.streams[j], of_i);

@@ -128,6 +128,20 @@ bool is_sure_slip(const Diagnosis& diagnosis) {
   });
 }
 
+std::optional<std::size_t> slipped_since(const IdentifiedJob& job, std::size_t reference) {
+  const ProbeStream& own = job.streams[reference];
+  for (std::size_t k = 0; k < job.diagnoses.size(); ++k) {
+    const Finding* slip = job.diagnoses[k] ? job.diagnoses[k]->slip() : nullptr;
+    if (k == reference || slip == nullptr) continue;
+    const ProbeStream& of_slip = job.streams[k];
+    const bool one_clock =
+        own.source == of_slip.source && !own.time_s.empty() && !of_slip.time_s.empty();
+    const double ended_s = slip->term.shape.onset_s + slip->term.shape.duration_s;
+    if (!one_clock || own.time_s.front() < ended_s) return k;
+  }
+  return {};
+}
+
 Reasons moved_part(const IdentifiedJob& job) {
   Reasons moved;
   for (std::size_t i = 0; i < job.diagnoses.size(); ++i)

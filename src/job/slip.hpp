@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "job/check.hpp"
 
 namespace trueaxis {
@@ -18,6 +20,11 @@ Reasons moved_part(const IdentifiedJob& job);
 /// a cause that may be another slip, and nothing unexplained. Whether one that lasts has ended, no
 /// reading tells.
 bool is_sure_slip(const Diagnosis& diagnosis);
+
+/// The reference during which the part slipped after another one may have been probed: where that
+/// one was is then not known. None: no part slipped, or the readings of this one say that they are
+/// later, in the times of the same file.
+std::optional<std::size_t> slipped_since(const IdentifiedJob& job, std::size_t reference);
 
 /// Whether the part moved, more likely than not.
 bool is_likely_slip(const Diagnosis& diagnosis);

@@ -106,6 +106,58 @@ TEST_F(SeatsCommand, RunTakesEverySeatOfAStream) {
       << line;
 }
 
+/// Two diameters on one axis, of a part that slips by 25 µm at a Z, with a time of every reading.
+std::string slipped_at(double slip_z_mm) {
+  std::istringstream lines(helix([](double z) { return z < shoulder_mm ? 20.0 : 22.5; },
+                                 [&](double z) {
+                                   const double by = z < slip_z_mm ? 0.0 : 0.025;
+                                   return Point{0.08 + 1e-4 * z + by, -0.02};
+                                 }));
+  std::string out;
+  int reading = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_reading = std::isdigit(static_cast<unsigned char>(line.front())) != 0;
+    out += line +
+           (line[0] == '#' ? "" : "," + (is_reading ? std::to_string(0.01 * reading++) : "t")) +
+           '\n';
+  }
+  return out;
+}
+
+// Where the first seat was is not known after a slip during the second: no axis, no distance. A
+// seat that the times put after the slip is where it was probed.
+TEST_F(SeatsCommand, ASeatFromBeforeASlipIsNotKnown) {
+  file("late.csv", slipped_at(37.0));
+  const CommandStreams late = command("run late.csv -o late");
+  EXPECT_EQ(late.exit_code, 1) << late.out;
+  EXPECT_TRUE(late.out.starts_with("NOT PROVEN: the part slipped while B was probed")) << late.out;
+  const json found = result("late/result.json");
+  EXPECT_EQ(found.value("seats_apart", json::array()).size(), 0u);
+  EXPECT_FALSE(contains(late.out, "tap    A")) << late.out;
+  EXPECT_FALSE(contains(late.out, "apart  ")) << late.out;
+
+  file("early.csv", slipped_at(12.0));
+  const CommandStreams early = command("run early.csv -o early");
+  ASSERT_EQ(early.exit_code, 0) << early.out << early.err;
+  const json apart = result("early/result.json").at("seats_apart").at(0);
+  for (const json& at : apart.at("at"))
+    expect_holds(at.at("in_its_middle").at("offset"), 0.0, "offset");
+}
+
+// 2e-4 and 1e-4 of slope are some hundredths of a degree, to the digits of the screen.
+TEST_F(SeatsCommand, TheScreenHasTheTiltInDegrees) {
+  file("shaft.csv", two_diameters());
+  const CommandStreams done = command("run shaft.csv -o out");
+  const std::regex tilt("tilt ([0-9.]+) ± ([0-9.]+) °");
+  std::vector<double> seen;
+  for (std::sregex_iterator at(done.out.begin(), done.out.end(), tilt), end; at != end; ++at) {
+    const double size_deg = (seen.empty() ? 1e-4 : 2e-4) * 180 / std::numbers::pi;
+    EXPECT_NEAR(std::stod((*at)[1]), size_deg, std::stod((*at)[2])) << done.out;
+    seen.push_back(size_deg);
+  }
+  EXPECT_EQ(seen.size(), 2u) << done.out;
+}
+
 TEST_F(SeatsCommand, AJobTakesRangesOfOneFileOrTwoFiles) {
   file("shaft.csv", two_diameters());
   const std::string
@@ -134,6 +186,19 @@ TEST_F(SeatsCommand, AJobTakesRangesOfOneFileOrTwoFiles) {
   expect_input_error("run turned.toml -o out", "is not above z_from_mm");
   file("empty.toml", a + "z_from_mm = 70\n");
   expect_input_error("run empty.toml -o out", "has no reading at Z from 70 mm");
+}
+
+// Neither stream was fitted as the other feature before the two were compared.
+TEST_F(SeatsCommand, AShaftAndABoreThatSaySo) {
+  file("cone.csv", "# feature: shaft\n" + helix([](double z) { return 20.0 + 0.1 * z; }, axis_a));
+  file("bore.csv", "# feature: bore\n" + helix([](double) { return 15.0; }, axis_b));
+  file("job.toml",
+       "[[reference]]\nname = \"A\"\nstream = \"cone.csv\"\nsurface = \"cone\"\n"
+       "[[reference]]\nname = \"B\"\nstream = \"bore.csv\"\nsurface = \"cylinder\"\n"
+       "feature = \"bore\"\n");
+  const CommandStreams done = command("run job.toml -o out");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(result("out/result.json").at("seats_apart").size(), 1u);
 }
 
 TEST_F(SeatsCommand, OneSurfaceOverAShoulderIsRefusedWithItsRanges) {

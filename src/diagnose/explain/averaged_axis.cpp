@@ -353,7 +353,10 @@ AveragedAxis average_axis(const Problem& problem, const Joint& joint,
   const Eigen::VectorXd named = out.shift;
   double probability = 1.0;
   for (const Otherwise& other : others) probability -= other.probability;
-  for (AveragedAxis::Source& source : out.sources) source.covariance *= probability;
+  for (AveragedAxis::Source& source : out.sources) {
+    source.covariance *= probability;
+    source.share *= probability;
+  }
   out.shift *= probability, out.within *= probability;
   out.between = probability * (out.between + named * named.transpose());
   std::vector<AxisShare> shares;

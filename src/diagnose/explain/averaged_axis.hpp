@@ -29,6 +29,7 @@ struct AveragedAxis {
     std::string instead_of;
     Eigen::MatrixXd covariance;
     std::vector<Alternative> law;  ///< the normals of its mixture; 0 with what they lack of 1
+    double share = 0.0;            ///< of u², by which that would be smaller without it
   };
   std::vector<Source> sources;
   std::vector<AxisShare> shares;  ///< the models that move it, the largest first

@@ -56,13 +56,31 @@ double scale_at(const Direction& along, const AveragedAxis& average) {
   return std::max(0.0, u * u - of_noise) / of_causes;
 }
 
+double scale_of(const LinearisationPoint& point, const AveragedAxis& average) {
+  const Eigen::MatrixXd whole = average.within + average.between;
+  return std::max(scale_at(worse_at(point, -1.0, whole), average),
+                  scale_at(worse_at(point, 1.0, whole), average));
+}
+
+/// The covariance of the axis that has the interval of a mixture without a source.
+Eigen::MatrixXd without(const LinearisationPoint& point, const AveragedAxis& average,
+                        std::size_t source) {
+  AveragedAxis less = average;
+  less.sources.erase(less.sources.begin() + static_cast<std::ptrdiff_t>(source));
+  less.between -= average.sources[source].covariance;
+  return less.within + scale_of(point, less) * less.between;
+}
+
 }  // namespace
 
 void set_interval(const LinearisationPoint& point, AveragedAxis& average) {
   if (average.sources.empty()) return;
-  const Eigen::MatrixXd whole = average.within + average.between;
-  const double scale = std::max(scale_at(worse_at(point, -1.0, whole), average),
-                                scale_at(worse_at(point, 1.0, whole), average));
+  const double scale = scale_of(point, average);
+  const double u_mm = axis_uncertainty(point, average.within + scale * average.between).u_mm;
+  for (std::size_t i = 0; i < average.sources.size(); ++i) {
+    const double left_mm = axis_uncertainty(point, without(point, average, i)).u_mm;
+    average.sources[i].share = u_mm > 0.0 ? 1.0 - std::pow(left_mm / u_mm, 2) : 0.0;
+  }
   average.between *= scale;
   for (AveragedAxis::Source& source : average.sources) source.covariance *= scale;
 }
@@ -71,14 +89,12 @@ std::vector<AxisLimit> limits_of(const LinearisationPoint& point, const Averaged
   std::vector<AxisLimit> out;
   const Eigen::MatrixXd whole = average.within + average.between;
   const double u_mm = axis_uncertainty(point, whole).u_mm;
-  const auto tell = [&](std::string effect, std::string instead_of, const Eigen::MatrixXd& part) {
-    const double left_mm = axis_uncertainty(point, whole - part).u_mm;
-    const double share = u_mm > 0.0 ? 1.0 - std::pow(left_mm / u_mm, 2) : 0.0;
-    if (share > least_share) out.push_back({std::move(effect), std::move(instead_of), share});
-  };
-  tell("", "", average.within);
+  const double causes_mm = axis_uncertainty(point, average.between).u_mm;
+  out.push_back({"", "", u_mm > 0.0 ? 1.0 - std::pow(causes_mm / u_mm, 2) : 0.0});
   for (const AveragedAxis::Source& source : average.sources)
-    tell(source.effect ? std::string(source.effect->id) : "", source.instead_of, source.covariance);
+    out.push_back(
+        {source.effect ? std::string(source.effect->id) : "", source.instead_of, source.share});
+  std::erase_if(out, [](const AxisLimit& one) { return !(one.share > least_share); });
   std::ranges::stable_sort(out, std::greater{}, &AxisLimit::share);
   return out;
 }

@@ -59,6 +59,29 @@ Typical typical_of(const Effect& effect, const SearchForm& form, const Linearisa
           std::string(form.told)};
 }
 
+/// A wave along Z that the pass of most turns makes one undulation per revolution, such as feed
+/// marks of half the probe's feed. None: the effect has no such period.
+std::optional<Typical> once_per_revolution(const Effect& effect, const LinearisationPoint& point) {
+  const auto* wave = std::get_if<PeriodicInZ>(&effect.term);
+  if (wave == nullptr || !effect.line) return {};
+  const auto travel = [&](PointColumn x, const Pass& pass) {
+    return point.at(x, pass.end - 1) - point.at(x, pass.begin);
+  };
+  const auto turns = [&](const Pass& pass) {
+    return pass.feed_sign == 0 ? 0.0 : std::abs(travel(&PointPart::c, pass)) / two_pi;
+  };
+  const auto longest = std::ranges::max_element(point.passes, {}, turns);
+  if (longest == point.passes.end() || turns(*longest) < 1.0) return {};
+  const double feed = two_pi * travel(&PointPart::s, *longest) / travel(&PointPart::c, *longest);
+  const double period = (wave->turns == 0.0 ? std::abs(feed) : feed) / (1.0 + wave->turns);
+  const EffectParameter* range = parameter_for(effect, "period_mm");
+  if (range == nullptr || period < range->low || period > range->high) return {};
+  Typical out = typical_of(effect, {.free = effect.search.forms.front().free}, point);
+  out.hypothesis.shape.period_mm = period;
+  out.form = fmt::format("of the period {:.3g} mm: ", period);
+  return out;
+}
+
 /// The share of columns that is left after others, RMS.
 double left_of(const Joint& joint, const Columns& columns, const Columns& beside) {
   const Projection projection = project(joint.equations.total(), beside);
@@ -94,6 +117,7 @@ std::vector<Typical> typical_effects(const Problem& problem) {
     list.push_back(typical_of(*effect, {.free = forms.front().free}, problem.point));
     for (const SearchForm& form : forms)
       if (!form.told.empty()) list.push_back(typical_of(*effect, form, problem.point));
+    if (auto wave = once_per_revolution(*effect, problem.point)) list.push_back(*std::move(wave));
   }
   return list;
 }

@@ -123,7 +123,7 @@ void word_unknown_axes(JobResult& result) {
     if (!result.axis_unknown[i]) continue;
     const std::string words = words_of(*result.axis_unknown[i], result);
     withhold_axis(result.fits[i], words);
-    withhold_axis(*result.diagnoses[i], words);
+    if (result.diagnoses[i]) withhold_axis(*result.diagnoses[i], words);
   }
 }
 

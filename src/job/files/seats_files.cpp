@@ -80,7 +80,7 @@ Json seats_apart_array(const JobResult& result) {
 
 std::string seat_axis_screen(const JobResult& result, std::size_t reference) {
   const FitResult& fit = fit_used(result, reference);
-  if (!axis_is_known(result, reference)) return "";
+  if (!axis_is_known(result, reference)) return fit.axis_known() ? "" : axis_screen(fit);
   const AxisEstimate axis = axis_of_reference(result, reference);
   std::string text = axis_screen(fit);
   if (result.fits.size() == 1 || fit.surface == SurfaceKind::plane ||
@@ -91,8 +91,8 @@ std::string seat_axis_screen(const JobResult& result, std::size_t reference) {
   for (std::size_t e = 0; e < 2; ++e)
     text += (e == 0 ? "" : ", ") + um_pm(ends[e].size_mm(), ends[e].u_mm, fit.coverage_factor) +
             " at " + z_text(ends[e].z_mm);
-  return text + ", tilt " + layout::size_plus_minus(tilt_of(axis), fit.coverage_factor, 1.0, "°") +
-         "\n";
+  return text + ", tilt " +
+         layout::size_plus_minus(tilt_of(axis), fit.coverage_factor, 1.0 / rad_per_deg, "°") + "\n";
 }
 
 std::string largest_distance_text(const JobResult& result) {
