@@ -106,6 +106,30 @@ TEST(RevolvedStart, IsOfAllReadingsInAnyOrder) {
   }
 }
 
+// A gauge shows X and an offset. The mean of X is the nominal radius less the square of the
+// eccentricity over four times the radius. The start is near to within a few times that.
+TEST(RevolvedStart, OfAGaugeFindsItsOffset) {
+  constexpr double radius_mm = 40.0, offset_mm = -39.2, near_mm = (1.3 * 1.3 + 0.7 * 0.7) / 40.0;
+  for (const Root root : {Root::front, Root::rear}) {
+    const double side = root == Root::front ? 1.0 : -1.0;
+    LevelReadings readings({{1.3, -0.7, 0.0, 0.0, 55.0}, radius_mm, 0.0});
+    for (std::size_t i = 0; i < 240; ++i) {  // from behind it is half a turn on
+      readings.x[i] = side * (readings.x[i] + offset_mm);
+      readings.cos_c[i] *= side, readings.sin_c[i] *= side;
+    }
+    SurfaceFrame frame;
+    frame.position_ref_mm = 55.0, frame.half_length_mm = 30.0, frame.root = root;
+    frame.indication = Indication::relative, frame.nominal_radius_mm = radius_mm;
+    const double expected[] = {1.3, -0.7, 0.0, 0.0, side * offset_mm};
+    const auto cylinder = catalogue_entry(SurfaceKind::cylinder).make(frame);
+    for (const auto& start :
+         {cylinder->start(readings.block(), 240), cylinder->level_start(readings.block(), 240)}) {
+      ASSERT_EQ(start.size(), 5U);
+      for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(start[i], expected[i], near_mm) << i;
+    }
+  }
+}
+
 // A cone that nearly ends within the length is blunted to 0.9 of the radius over half of it. The
 // axis is pulled in to 0.8 of the least radius.
 TEST(RevolvedStart, LevelLeavesRoomAroundTheSpindle) {
