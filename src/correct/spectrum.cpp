@@ -17,6 +17,7 @@ constexpr int samples = 64;          // of one revolution: order n is mixed with
 constexpr int nodes = 9;             // of the position
 constexpr double matters_mm = 1e-9;  // a thousandth of the table's last digit but one
 constexpr double reported_mm = 1e-6;
+constexpr double rounding_mm = 1e-13;  // of X's of 100 mm, whose differences the amplitudes are
 
 /// Coefficients c_j of Σ c_j T_j(u) through values at the Chebyshev points of the first kind.
 std::vector<Complex> chebyshev_series(const std::vector<Complex>& values) {
@@ -28,9 +29,7 @@ std::vector<Complex> chebyshev_series(const std::vector<Complex>& values) {
                                              std::cos(std::numbers::pi * j * (k + 0.5) / nodes);
     }
   }
-  double largest = 0.0;
-  for (const Complex& c : series) largest = std::max(largest, std::abs(c));
-  while (series.size() > 2 && std::abs(series.back()) < 1e-13 * (1.0 + largest)) series.pop_back();
+  while (series.size() > 2 && std::abs(series.back()) < rounding_mm) series.pop_back();
   return series;
 }
 

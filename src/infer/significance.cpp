@@ -26,10 +26,11 @@ double log_p_value(double gain, double rank, double rss, double freedom) {
   const double f = gain / rank / (rest / left);
   // Far out the tail of the F distribution is (1 + q F/ν)^(−ν/2) up to a factor that changes
   // slowly.
-  if (f * rank > 600.0 && left > 60.0) return -0.5 * left * std::log1p(rank * f / left);
+  const double log_tail = -0.5 * left * std::log1p(rank * f / left);
+  if (f * rank > 600.0 && left > 60.0) return log_tail;
   const boost::math::fisher_f distribution(rank, left);
   const double p = cdf(complement(distribution, f));
-  return p > 0.0 ? std::log(p) : -700.0;
+  return p > 0.0 ? std::log(p) : log_tail;
 }
 
 double Family::p_value(double single_p) const {

@@ -41,6 +41,8 @@ TEST(FamilyOfTests, ALogarithmIsThatOfFishersTail) {
       const bool far = left * (1.0 / w - 1.0) > 600.0 && left > 60.0;
       EXPECT_NEAR(log_p(w, 4.0, left, 1.0), leading + all, far ? 1.01 * all : 1e-9 * -leading);
     }
+  // No double holds a p of 1e-345. Its logarithm is known to the rounding of 1 − w.
+  EXPECT_NEAR(log_p(2e-12, 2.0, 59.0, 1.0), 0.5 * 59.0 * std::log(2e-12), 0.5 * 59.0 * 1.2e-4);
   EXPECT_EQ(log_p(1.0, 2.0, 12.0, 1.0), 0.0);
   EXPECT_EQ(infer::log_p_value(1.0, 2.0, 0.0, 12.0), 0.0);
   EXPECT_EQ(infer::log_p_value(1.0, 0.0, 2.0, 12.0), 0.0);

@@ -307,6 +307,20 @@ TEST(FitMinimum, IsPolishedFarBelowTheNoise) {
   }
 }
 
+// One section tells nothing of a tilt, and of the rest what the fit of a circle tells. Lobes keep
+// the minimum off its start. The iteration ends at 1e-12 of the sum of squares.
+TEST(FitMinimum, OfOneSectionIsThatOfItsCircle) {
+  ProbeStream stream = cylinder(400, 8.3, 5.0);
+  std::ranges::fill(stream.position_mm, 7.0);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    stream.reading_mm[i] += 0.3 * std::cos(3.0 * stream.c_rad[i] + 1.0);
+  FitOptions options = of_cylinder();
+  const FitResult found = fit(stream, options);
+  EXPECT_EQ(found.status, FitStatus::rank_deficient);
+  options.surface = SurfaceKind::section;
+  EXPECT_NEAR(found.rms_mm, fit(stream, options).rms_mm, 1e-12);
+}
+
 /// Three set-ups of two readings each: front, rear, and clamped anew; Z of each 10 mm on.
 ProbeStream three_set_ups(double x_mm) {
   ProbeStream stream;

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "correct/profile.hpp"
 #include "support/diagnosis_example.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -66,6 +69,35 @@ TEST(Spectrum, HasTheWavesThatTheToolFollows) {
             std::abs(found[i].value - expected[static_cast<std::size_t>(spectrum.orders()[i])]),
             1e-9);
     }
+  }
+}
+
+// A cos(nC − φ), whatever the sense and the start of the cut. The actuator answers by Eq. 112 at n
+// times the speed: here at 90 Hz, with a natural frequency of 150 Hz.
+TEST(Spectrum, OfATableSaysWhatTheActuatorDoesToIt) {
+  constexpr double hz = 3.0 * 30.0, of_own = hz / 150.0, hold_rad = 0.5 * two_pi * hz / 2000.0;
+  Actuator actuator;
+  actuator.natural_frequency_hz = 150.0, actuator.damping = 0.4;
+  actuator.delay_s = 1e-4, actuator.sampling_hz = 2000.0;
+  const double real = 1.0 - of_own * of_own, imaginary = 2.0 * 0.4 * of_own;
+  for (const int sense : {1, -1}) {
+    ToolSetup tool;
+    tool.sense = sense, tool.c_start_rad = 0.7, tool.speed_rpm = 1800.0;
+    std::vector<RepeatingMotion> motions;
+    motions.push_back(
+        {example::fitted("spindle.radial_synchronous", {.order = 3.0}, {0.006, -0.002})});
+    const TargetSurface cylinder{
+        .kind = TargetKind::cylinder, .z_start_mm = 10.0, .z_end_mm = 50.0, .radius_mm = 8.0};
+    const auto found = table_harmonics(Profile(Axis{}, cylinder, tool, motions), actuator);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].order, 3);
+    EXPECT_NEAR(found[0].amplitude_start_mm, std::hypot(0.006, 0.002), 1e-12);
+    EXPECT_NEAR(found[0].amplitude_end_mm, std::hypot(0.006, 0.002), 1e-12);
+    EXPECT_NEAR(found[0].phase_start_rad, std::atan2(-0.002, 0.006), 1e-9);
+    EXPECT_NEAR(found[0].phase_end_rad, std::atan2(-0.002, 0.006), 1e-9);
+    EXPECT_NEAR(found[0].gain, std::sin(hold_rad) / hold_rad / std::hypot(real, imaginary), 1e-12);
+    EXPECT_NEAR(found[0].lag_rad, std::atan2(imaginary, real) + two_pi * hz * 1e-4 + hold_rad,
+                1e-12);
   }
 }
 

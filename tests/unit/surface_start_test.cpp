@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -83,6 +84,49 @@ TEST(RevolvedStart, IsNearASurfaceThatLeans) {
     for (std::size_t i = 0; i < 6; ++i)
       EXPECT_NEAR(start[i], expected[i], i < 2 || i == 4 ? dropped : dropped / 30.0)
           << t << ' ' << i;
+  }
+}
+
+// Whatever order readings come in, their sums differ by the rounding of 240 terms, times the
+// condition of the start's equations, which is below 100, and lengths of 40 mm.
+TEST(RevolvedStart, IsOfAllReadingsInAnyOrder) {
+  constexpr double rounding_mm = 240.0 * 2.2e-16 * 100.0 * 40.0;
+  LevelReadings readings({{1.3, -0.7, 3e-3, -2e-3, 55.0}, 40.0, 0.15});
+  for (std::size_t i = 0; i < 240; ++i) readings.x[i] += 0.1 * std::sin(double(i * i));
+  LevelReadings reversed = readings;
+  for (std::vector<double>* column : {&reversed.x, &reversed.cos_c, &reversed.sin_c, &reversed.z})
+    std::ranges::reverse(*column);
+  SurfaceFrame frame;
+  frame.position_ref_mm = 55.0, frame.half_length_mm = 30.0;
+  for (const SurfaceKind kind : {SurfaceKind::section, SurfaceKind::cylinder, SurfaceKind::cone}) {
+    const auto surface = catalogue_entry(kind).make(frame);
+    const auto start = surface->start(readings.block(), 240);
+    const auto other = surface->start(reversed.block(), 240);
+    for (std::size_t i = 0; i < start.size(); ++i) EXPECT_NEAR(start[i], other[i], rounding_mm);
+  }
+}
+
+// A gauge shows X and an offset. The mean of X is the nominal radius less the square of the
+// eccentricity over four times the radius. The start is near to within a few times that.
+TEST(RevolvedStart, OfAGaugeFindsItsOffset) {
+  constexpr double radius_mm = 40.0, offset_mm = -39.2, near_mm = (1.3 * 1.3 + 0.7 * 0.7) / 40.0;
+  for (const Root root : {Root::front, Root::rear}) {
+    const double side = root == Root::front ? 1.0 : -1.0;
+    LevelReadings readings({{1.3, -0.7, 0.0, 0.0, 55.0}, radius_mm, 0.0});
+    for (std::size_t i = 0; i < 240; ++i) {  // from behind it is half a turn on
+      readings.x[i] = side * (readings.x[i] + offset_mm);
+      readings.cos_c[i] *= side, readings.sin_c[i] *= side;
+    }
+    SurfaceFrame frame;
+    frame.position_ref_mm = 55.0, frame.half_length_mm = 30.0, frame.root = root;
+    frame.indication = Indication::relative, frame.nominal_radius_mm = radius_mm;
+    const double expected[] = {1.3, -0.7, 0.0, 0.0, side * offset_mm};
+    const auto cylinder = catalogue_entry(SurfaceKind::cylinder).make(frame);
+    for (const auto& start :
+         {cylinder->start(readings.block(), 240), cylinder->level_start(readings.block(), 240)}) {
+      ASSERT_EQ(start.size(), 5U);
+      for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(start[i], expected[i], near_mm) << i;
+    }
   }
 }
 
