@@ -56,6 +56,8 @@ struct AxisEstimate {
   /// Standard uncertainty of the slope in its worse direction, mm per mm; of both slopes together.
   double u_slope() const;
   double u_slopes() const;
+  /// Of the size of the slope, mm per mm: along the slope, or u_slope() if the slope is not larger.
+  double u_tilt() const;
 };
 
 /// A right circular cone (or, with tan_half_angle = 0, a cylinder) about an axis. s runs along the

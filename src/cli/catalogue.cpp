@@ -159,7 +159,7 @@ const std::vector<CommandEntry> entries{
     {"Study",
      "study plan",
      "find the length, readings and probe that a required uncertainty needs",
-     {"trueaxis study plan --goal-um 1 --free readings_per_revolution=4:200",
+     {"trueaxis study plan --goal-um 1 --free readings_per_revolution=7:200",
       "trueaxis study plan part.toml --goal-um 0.5 --free length_mm=10:80"},
      "docs/how-to/plan-a-measurement.md",
      add_plan},

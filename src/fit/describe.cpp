@@ -196,9 +196,8 @@ void report_derived(const Standing& last, FitResult& result) {
     offset("offset_at_max_z", result.position_max_mm);
   }
   if (no_direction) return;
-  const Eigen::Vector2d slope(line.slope_x, line.slope_y);
-  const double u = u_of_norm(slope, axis.bottomRightCorner<2, 2>());
-  result.derived.push_back({"tilt", {std::atan(slope.norm()), u, "rad", ""}});
+  const double slope = std::hypot(line.slope_x, line.slope_y);
+  result.derived.push_back({"tilt", {std::atan(slope), result.axis.u_tilt(), "rad", ""}});
 }
 
 void report_rms(FitResult& result) {

@@ -24,9 +24,9 @@ constexpr Threshold much_left{"left", 1.5, "of the noise",
 constexpr Threshold too_little{"left", 1e-4, "mm", "the last digit of a stream makes as much"};
 constexpr Threshold least_beats{"beats", 3.0, "turns over a pass",
                                 "a line that beats less with the spindle is one with the axis"};
-constexpr Threshold least_angles{"angles", 7.0, "1",
-                                 "six take five lobes, the commonest of ground parts, for an "
-                                 "eccentricity"};
+constexpr Threshold enough_angles{"angles", least_angles, "1",
+                                  "six take five lobes, the commonest of ground parts, for an "
+                                  "eccentricity"};
 constexpr Threshold angles_apart{"apart", rad_per_deg, "rad", "angles nearer than that are one"};
 
 /// Cycles per revolution of a term at the speed and feed of a pass; none: it is not a wave.
@@ -164,7 +164,7 @@ std::optional<Reason> sensor_limit_in(const ProbeStream& stream, const Diagnosis
 
 constexpr Threshold of_left[] = {much_left, too_little};
 constexpr Threshold of_beats[] = {least_beats};
-constexpr Threshold of_angles[] = {least_angles, angles_apart};
+constexpr Threshold of_angles[] = {enough_angles, angles_apart};
 constexpr Threshold of_limit[] = {
     {"at_limit", few_at_a_limit, "readings", "noise puts one or two at an extreme"},
     {"at_limit", more_at_a_limit, "of the readings of any value",
@@ -209,7 +209,7 @@ Reason measure(const NextMeasurement& next) {
 
 std::optional<Reason> few_angles_of(const ProbeStream& stream) {
   if (stream.kind == StreamKind::face) return {};
-  const auto enough = static_cast<std::size_t>(least_angles.value);
+  const auto enough = static_cast<std::size_t>(least_angles);
   std::size_t angles = few_places(stream, enough);
   if (const auto alike = angles_alike(stream))
     angles = std::min(angles, static_cast<std::size_t>(*alike));
@@ -217,7 +217,7 @@ std::optional<Reason> few_angles_of(const ProbeStream& stream) {
   const auto count = static_cast<double>(angles);
   return Reason{ReasonCode::few_angles,
                 {},
-                {{"angles", count}, {"lobes", count - 1.0}, {"enough", least_angles.value}}};
+                {{"angles", count}, {"lobes", count - 1.0}, {"enough", enough_angles.value}}};
 }
 
 std::optional<Reason> moved_reason(const ProbeStream& stream, std::span<const double> left_mm,

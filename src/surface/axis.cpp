@@ -45,6 +45,16 @@ double AxisEstimate::u_slope() const {
                  covariance(slope_y, slope_y));
 }
 
+double AxisEstimate::u_tilt() const {
+  using enum AxisRow;
+  const double a = axis.slope_x, b = axis.slope_y, size = std::hypot(a, b), worst = u_slope();
+  if (!(size > worst)) return worst;
+  return std::sqrt(a * a * covariance(slope_x, slope_x) +
+                   2.0 * a * b * covariance(slope_x, slope_y) +
+                   b * b * covariance(slope_y, slope_y)) /
+         size;
+}
+
 double AxisEstimate::u_slopes() const {
   using enum AxisRow;
   return std::sqrt(covariance(slope_x, slope_x) + covariance(slope_y, slope_y));

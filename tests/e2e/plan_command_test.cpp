@@ -50,6 +50,19 @@ TEST_F(PlanCommand, AnswersAndConfirms) {
   EXPECT_TRUE(contains(done.out, "Recommended, and confirmed by simulation (seed 7)"));
 }
 
+// `run` gives no axis of four angles: a plan of four was "within the goal".
+TEST_F(PlanCommand, RecommendsNoPlanOfTooFewAngles) {
+  file("seat.toml", scenario);
+  const CommandStreams done = command(
+      "study plan seat.toml --goal-um 5 --free readings_per_revolution=4:64 --repeats 100 --json "
+      "plan.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json plan = result("plan.json");
+  for (const nlohmann::json& one : plan.at("recommended"))
+    EXPECT_GE(one.at("plan").at("readings_per_revolution").at("value").get<double>(), 7.0) << one;
+  EXPECT_TRUE(contains(done.out, "with fewer, no axis is given")) << done.out;
+}
+
 TEST_F(PlanCommand, SameSeedSameBytesOnAnyThreads) {
   file("seat.toml", scenario);
   const std::string ask =

@@ -217,5 +217,15 @@ TEST(AxisEstimate, UncertaintyIsThatOfTheWorseDirection) {
   EXPECT_NEAR(estimate.u_at(10.0), std::sqrt(2.0), 1e-12);
 }
 
+// Of a slope of 1e-3 towards x that of x, although y is less well known; of none the worse.
+TEST(AxisEstimate, UncertaintyOfATiltIsAlongIt) {
+  AxisEstimate estimate{{0, 0, 1e-3, 0, 0.0}, {}};
+  estimate.covariance.by_rows[10] = 1e-12;
+  estimate.covariance.by_rows[15] = 4e-10;
+  EXPECT_NEAR(estimate.u_tilt(), 1e-6, 1e-18);
+  estimate.axis.slope_x = 0.0;
+  EXPECT_NEAR(estimate.u_tilt(), 2e-5, 1e-17);
+}
+
 }  // namespace
 }  // namespace trueaxis

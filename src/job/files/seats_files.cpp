@@ -22,9 +22,9 @@ double towards_deg(double x_mm, double y_mm) {
   return deg < 0.0 ? deg + 360.0 : deg;
 }
 
-/// Of a line's slopes: the angle to the spindle axis and its u in the worse direction.
+/// The angle of a line to the spindle axis.
 Estimate tilt_of(const AxisEstimate& axis) {
-  return {std::atan(std::hypot(axis.axis.slope_x, axis.axis.slope_y)), axis.u_slope(), "rad", ""};
+  return {std::atan(std::hypot(axis.axis.slope_x, axis.axis.slope_y)), axis.u_tilt(), "rad", ""};
 }
 
 Json offset_object(const AxisOffset& at) {

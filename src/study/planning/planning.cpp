@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/number.hpp"
+#include "measure/angles_alike.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/bound.hpp"
 #include "study/bound/quantities.hpp"
@@ -71,6 +72,20 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
                     *task.rate_hz, most, fastest_rpm));
     if (variable.low > variable.high)
       throw InputError("plan", remarks.back() + ": less than the range begins with");
+  }
+}
+
+/// No fewer readings per revolution than an axis is given from.
+void limit_angles(PlanningTask& task, std::vector<std::string>& remarks) {
+  for (DesignVariable& variable : task.variables) {
+    if (variable.choice != Choice::readings_per_revolution || variable.low >= least_angles)
+      continue;
+    variable.low = least_angles;
+    remarks.push_back(fmt::format(
+        "the range of readings per revolution begins at {}: with fewer, no axis is given",
+        least_angles));
+    if (variable.low > variable.high)
+      throw InputError("plan", remarks.back() + ", and it ends below that");
   }
 }
 
@@ -297,6 +312,7 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   PlanningAnswer out;
   check(task);
   limit_rate(task, out.remarks);
+  limit_angles(task, out.remarks);
   check_ends(task);
   const virtual_lathe::Noise& noise = task.base.noise;
   if (find(task.variables, Choice::readings_per_revolution) &&
