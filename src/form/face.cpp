@@ -11,6 +11,7 @@
 #include <ranges>
 
 #include "base/threads.hpp"
+#include "form/bounded.hpp"
 #include "form/section_model.hpp"
 #include "form/stream_checks.hpp"
 #include "form/uncertainty.hpp"
@@ -171,13 +172,11 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
   add_taken_off(taken_off, values, spread, [&](const TakenOff& one, std::size_t k) {
     return assess(added(height_mm, one, k));
   });
+  const Bounded bounded(values, spread, result.options.coverage_factor);
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (result.groups.empty() || result.groups.back().name != values[v].group)
       result.groups.push_back({values[v].group, {}});
-    result.groups.back().values.push_back({values[v].name,
-                                           values[v].reference,
-                                           {values[v].value, spread[v].u, values[v].unit, ""},
-                                           spread[v].bias});
+    result.groups.back().values.push_back(bounded(values[v], spread[v]));
   }
   result.notes.push_back(
       fmt::format("No filter along the surface: the values are those of the unfiltered readings, "

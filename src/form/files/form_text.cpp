@@ -34,8 +34,9 @@ std::string cell(const FormValue* one, double k) {
   if (one->estimate.determined() && scale * k * one->estimate.u < least_shown)
     return fmt::format("{:.4f} ± < {:g}", scale * one->estimate.value, least_shown);
   if (one->unresolved) return fmt::format("< {:.2g}", scale * one->estimate.interval->back());
-  if (one->estimate.determined() && one->estimate.value <= k * one->estimate.u)
-    return fmt::format("< {:.2g}", scale * (one->estimate.value + k * one->estimate.u));
+  const double within = bound_factor(k) * one->estimate.u;
+  if (one->estimate.determined() && one->estimate.value <= within)
+    return fmt::format("< {:.2g}", scale * (one->estimate.value + within));
   return layout::plus_minus(one->estimate, k, scale, "");
 }
 
@@ -48,7 +49,8 @@ std::string filter_text(const FormOptions& options) {
 
 std::string heading(const FormResult& result) {
   if (result.sections.empty())
-    return fmt::format("Values in µm ± U (k = {:g}), no filter\n", result.options.coverage_factor);
+    return fmt::format("Values in µm ± U (k = {:g}), < a bound (95 % confidence), no filter\n",
+                       result.options.coverage_factor);
   const SectionForm& first = result.sections.front();
   if (result.surface)
     return fmt::format(
