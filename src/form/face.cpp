@@ -12,6 +12,7 @@
 
 #include "base/threads.hpp"
 #include "form/bounded.hpp"
+#include "form/point_noise.hpp"
 #include "form/section_model.hpp"
 #include "form/stream_checks.hpp"
 #include "form/uncertainty.hpp"
@@ -154,7 +155,7 @@ double noise_in_order(std::span<const double> off_mm) {
 }  // namespace
 
 void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
-                    std::span<const double> height_mm, const AssessHeights& more,
+                    std::span<const double> height_mm, ShownNoise shown, const AssessHeights& more,
                     std::span<const TakenOff> taken_off, FormResult& result) {
   const HeightModel model(at_mm, plane,
                           plane ? HeightModel::Names{"flatness", "FLT", "PL"}
@@ -166,7 +167,9 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
     return values;
   };
   const std::vector<double> off = model.off_mm(height_mm);
-  const double noise_mm = std::max(noise_in_order(off), result.options.noise_mm.value_or(0.0));
+  const double shown_mm =
+      shown == ShownNoise::in_order ? noise_in_order(off) : noise_of_points_mm(at_mm, plane, off);
+  const double noise_mm = std::max(shown_mm, result.options.noise_mm.value_or(0.0));
   const auto values = assess(height_mm);
   auto spread = spreads_of_heights(height_mm, off, noise_mm, result.options, assess);
   add_taken_off(taken_off, values, spread, [&](const TakenOff& one, std::size_t k) {
@@ -203,7 +206,7 @@ void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const T
   uncertain.push_back({columns_mm, independent});
   const auto rings = rings_of(stream);
   assess_heights(
-      at, true, height_mm,
+      at, true, height_mm, ShownNoise::in_order,
       [&](std::span<const double> heights) { return axial_run_out(rings, heights); }, uncertain,
       result);
 }

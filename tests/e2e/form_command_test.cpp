@@ -168,7 +168,7 @@ TEST_F(FormCommand, PointsOfEveryElement) {
         std::snprintf(text, sizeof text, "%.10f %.10f %.10f\n", 20.0 * std::cos(t),
                       20.0 * std::sin(t), 50.0 + 1e-3 * std::cos(2.0 * t));
         plane += text;
-        std::snprintf(text, sizeof text, "%.10f %.10f 0\n", 0.1 * i, 1e-3 * (i % 2));
+        std::snprintf(text, sizeof text, "%.10f %.10f 0\n", 0.1 * i, 5e-4 * std::cos(4.0 * t));
         line += text;
       }
     }
