@@ -106,9 +106,10 @@ std::string one_section(const SectionForm& section, double k) {
   constexpr const char* circles[] = {"LSCI", "MZCI", "MCCI", "MICI"};
   std::string text = table(section.values, names, circles, k);
   const FormCircle& least = section.circles.front();
-  text += line("eccentricity",
-               cell(find(section.values, "eccentricity"), k) +
-                   fmt::format(" at {:.1f}°", std::atan2(least.y_mm, least.x_mm) / rad_per_deg));
+  if (const FormValue* eccentricity = find(section.values, "eccentricity"))
+    text += line("eccentricity",
+                 cell(eccentricity, k) +
+                     fmt::format(" at {:.1f}°", std::atan2(least.y_mm, least.x_mm) / rad_per_deg));
   if (const FormValue* radius = find(section.values, "radius"))
     text += line("radius", layout::plus_minus(radius->estimate, k, 1.0, "mm"));
   text += line("slope", cell(find(section.values, "slope"), k) + " µm/deg at most");
