@@ -112,6 +112,8 @@ struct FitResult {
   SigmaSource sigma_source = SigmaSource::none;
   double autocorrelation = 0.0;  ///< of neighbouring residuals (lag 1)
   double u_factor = 1.0;  ///< largest u of a parameter over that of white noise (1: uncorrelated)
+  /// u of the noise, so that k u is what Student's t says where few readings show σ, over σ's own.
+  double widened = 1.0;
   std::size_t points = 0;
   std::vector<Rejected> rejected;
   int iterations = 0;

@@ -69,7 +69,8 @@ struct FormValue {
   bool unresolved = false;
 };
 
-/// Ends of the interval value ± k u, or of the bounds in place of a value.
+/// Ends of the interval value ± k u, or of the bounds in place of a value, which hold with 95 % or
+/// more whatever k is (`bound_factor`).
 double least_of(const FormValue& value, double k);
 double most_of(const FormValue& value, double k);
 /// The value, or the upper bound in its place: by it sections are ranked.

@@ -39,6 +39,9 @@ struct Estimate {
   }
 };
 
+/// Of u in an upper bound that replaces value ± k u: 95 % confidence at least, whatever k is.
+inline double bound_factor(double coverage_factor) { return std::max(coverage_factor, 2.0); }
+
 /// From an angle inside to one at the edge, in degrees; 1 for any other unit.
 inline double edge_factor(std::string_view unit) { return unit == "rad" ? 1.0 / rad_per_deg : 1.0; }
 

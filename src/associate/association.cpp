@@ -12,6 +12,7 @@
 #include "associate/gaussian.hpp"
 #include "associate/least_squares.hpp"
 #include "math/linear_algebra.hpp"
+#include "math/statistics.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -53,14 +54,20 @@ Feature feature_of(const Placed& placed) {
   return out;
 }
 
-/// Covariance of the motions from the residuals: σ² (JᵀJ)⁻¹, σ² of the distances (Eq. 248).
+constexpr double coverage_factor = 2.0;  // of the U that u is widened for
+
+/// Covariance of the motions from the residuals: σ² (JᵀJ)⁻¹, σ² of the distances (Eq. 248), so that
+/// 2 u is what Student's t says where they are few.
 ParameterMatrix covariance_of(const LeastSquares& fit, const PointCloud& cloud) {
   const ShapeTraits& traits = traits_of(fit.placed.shape);
   const auto freedom = static_cast<double>(traits.residuals * cloud.points.size()) -
                        static_cast<double>(traits.parameters);
   const Parameters per = step_lengths(fit.placed.shape, cloud).cwiseInverse();
   const ParameterMatrix h = per.asDiagonal() * fit.normal.jtj * per.asDiagonal();
-  const double variance = freedom > 0.0 ? fit.normal.sum_of_squares / freedom : nan;
+  const double variance = freedom > 0.0
+                              ? fit.normal.sum_of_squares / freedom *
+                                    std::pow(student_widening(freedom, coverage_factor), 2)
+                              : nan;
   return variance * (per.asDiagonal() * linear::inverse(h) * per.asDiagonal());
 }
 

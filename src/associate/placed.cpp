@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 namespace trueaxis {
 namespace {
@@ -86,6 +87,9 @@ Placed recentred(const Placed& placed, const Eigen::Vector3d& near) {
     case Shape::cone:
       out.offset += placed.axes.row(2).transpose() * away[2];
       out.size += std::sin(placed.second_size) * away[2];
+      // The same cone with a half angle below 90°, maybe with −d.
+      if (std::cos(out.second_size) < 0.0) out.size = -out.size;
+      out.second_size = std::remainder(out.second_size, std::numbers::pi);
       break;
     case Shape::plane:
       out.offset += placed.axes.topRows<2>().transpose() * away.head<2>();

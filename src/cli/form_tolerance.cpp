@@ -81,13 +81,13 @@ FormVerdict judge_form(const FormResult& result, const std::vector<FormTolerance
     }
     const bool met = most_of(*worst, k) <= tolerance.limit_mm;
     verdict.met = verdict.met && met;
-    verdict.text +=
-        fmt::format("{}: {} {}{} µm, tolerance {:g} µm (ISO 14253-1)\n",
-                    met                                        ? "MET"
-                    : least_of(*worst, k) > tolerance.limit_mm ? "NOT MET"
-                                                               : "NOT PROVEN",
-                    worst->name, worst->reference.empty() ? "" : worst->reference + " ",
-                    form_value_text(*worst, k, 1e3, ""), tolerance.limit_mm / mm_per_um);
+    verdict.text += fmt::format("{}: {} {}{}, tolerance {:g} µm (ISO 14253-1)\n",
+                                met                                        ? "MET"
+                                : least_of(*worst, k) > tolerance.limit_mm ? "NOT MET"
+                                                                           : "NOT PROVEN",
+                                worst->name, worst->reference.empty() ? "" : worst->reference + " ",
+                                form_value_text(*worst, k, 1.0 / mm_per_um, "µm"),
+                                tolerance.limit_mm / mm_per_um);
   }
   return verdict;
 }

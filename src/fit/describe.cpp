@@ -308,7 +308,7 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
                                *std::ranges::max_element(scale));
   const Determination determination =
       determine(normal, scale, size, noise, options.coverage_factor);
-  take_in(determination, noise);
+  take_in(determination, options.coverage_factor, noise);
   for (Eigen::Index j = 0; j < determination.free_directions.cols(); ++j) {
     result.not_determined.push_back(
         name_direction(determination.free_directions.col(j), model.names(), scale));
@@ -364,6 +364,7 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
   result.sigma_source = noise.source;
   result.autocorrelation = noise.autocorrelation;
   result.u_factor = noise.u_factor;
+  result.widened = noise.widened;
   result.parameters = result.set_ups.back().parameters;
   result.axis = result.set_ups.back().axis;
   result.shape = result.set_ups.back().shape;

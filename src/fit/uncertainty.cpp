@@ -203,7 +203,9 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
   return out;
 }
 
-void take_in(const Determination& determination, ReadingNoise& noise) {
+namespace {
+
+void take_in_correlation(const Determination& determination, ReadingNoise& noise) {
   if (!noise.correlated) return;
   constexpr double least_share = 0.1;  // of N − p: nearly all freedom taken says nothing of σ
   const Eigen::MatrixXd& inverse = determination.inverse;
@@ -221,6 +223,15 @@ void take_in(const Determination& determination, ReadingNoise& noise) {
     if (white(i) > 0.0)
       noise.u_factor = std::max(noise.u_factor, std::sqrt(correlated(i) / white(i)));
   }
+}
+
+}  // namespace
+
+void take_in(const Determination& determination, double coverage, ReadingNoise& noise) {
+  take_in_correlation(determination, noise);
+  if (noise.stated_mm || !(noise.redundancy > 0.0)) return;
+  noise.widened = student_widening(
+      std::max(1.0, noise.redundancy / (noise.u_factor * noise.u_factor)), coverage);
 }
 
 std::string name_direction(const Eigen::VectorXd& direction, const std::vector<std::string>& names,
@@ -246,7 +257,7 @@ std::vector<Source> budget_sources(const JointModel& model, const Association& a
                                    const Determination& determination, const ReadingNoise& noise,
                                    const FitOptions& options) {
   const std::vector<double>& joint = association.minimum.working;
-  const double sigma = noise.sigma_mm * (noise.correlated ? 1.0 : noise.u_factor);
+  const double sigma = noise.sigma_mm * (noise.correlated ? 1.0 : noise.u_factor) * noise.widened;
   const Eigen::MatrixXd& inverse = determination.inverse;
   std::vector<Source> sources{
       {"noise of the readings", 'A', sigma * sigma * noise.loss_factor * inverse}};

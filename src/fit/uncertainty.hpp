@@ -23,6 +23,7 @@ struct ReadingNoise {
   /// By which correlation widens every u, √((1 + ρ)/(1 − ρ)); with `correlated` the most that it
   /// widens the u of a parameter by (see take_in). 1: uncorrelated.
   double u_factor = 1.0;
+  double widened = 1.0;      ///< of u where few readings show σ (see take_in)
   double angle_rad2 = 0.0;   ///< variance of C, where the scatter goes with the slope of X over C
   double loss_factor = 1.0;  ///< variance of the M-estimate over that of least squares
 };
@@ -48,8 +49,8 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
                         double size_mm, const ReadingNoise& noise, double coverage);
 
 /// What correlated noise makes of the readings' freedom, which σ follows from, and of the u of the
-/// parameters (Eq. 34b).
-void take_in(const Determination& determination, ReadingNoise& noise);
+/// parameters (Eq. 34b); then what that freedom makes of u (Eq. 34c).
+void take_in(const Determination& determination, double coverage, ReadingNoise& noise);
 
 /// "0.71 x + 0.70 radius" for a direction, in mm on the surface.
 std::string name_direction(const Eigen::VectorXd& direction, const std::vector<std::string>& names,

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <string_view>
 
+#include "form/bounded.hpp"
 #include "form/closing.hpp"
 #include "form/face.hpp"
 #include "form/notes.hpp"
@@ -140,73 +139,29 @@ FormGroup& group_named(FormResult& result, const std::string& name) {
   return result.groups.emplace_back(FormGroup{name, {}});
 }
 
-/// Values without form beyond the noise, of which a surface gives bounds.
-class Unresolved {
- public:
-  Unresolved(const std::vector<NamedValue>& values, const std::vector<Spread>& spread, double k) {
-    for (std::size_t v = 0; v < values.size(); ++v)
-      resolved_[family(values[v])] |= is_whole(values[v]) && values[v].value > k * spread[v].u;
-  }
-  bool has(const NamedValue& value, const Spread& spread) const {
-    return std::ranges::find(of_form, value.name) != std::end(of_form) && spread.u > 0.0 &&
-           !resolved_.at(family(value));
-  }
-
- private:
-  static constexpr std::string_view of_form[] = {"RONt",        "RONp",  "RONv",  "RONq",
-                                                 "CYLt",        "CYLp",  "CYLv",  "CYLq",
-                                                 "CONt",        "STRsa", "STRsg", "runout_circular",
-                                                 "runout_total"};
-  /// RONt, and not its parts RONp, RONv and RONq.
-  static bool is_whole(const NamedValue& value) {
-    return value.name.size() > 4 || value.name.ends_with('t');
-  }
-  /// The values RONt, RONp … about one circle.
-  static std::string family(const NamedValue& value) {
-    return value.name.substr(0, 3) + (value.name.size() > 4 ? value.name : "") + value.reference;
-  }
-  std::map<std::string, bool> resolved_;
-};
-
-/// A picometre: what is smaller with its u is rounding, such as RONp about the circle around it,
-/// which is 0 by its definition.
-constexpr double rounding = 1e-9;
-
 /// In σ/√N: a bend of the axis that the readings of a surface do not show. Its coefficient of P₂
 /// has u = σ √(10/N), and straightness 1.5 times that. The chain finds 3 u, thus 95 % of 4.65 u.
 constexpr double unseen_bend = 4.65 * 1.5 * 3.17;
 
 /// What may be there of a value although no draw of the surface has it, mm.
 double unseen_mm(const FormResult& result, const NamedValue& value) {
-  if (!result.surface || !value.name.starts_with("STR")) return 0.0;
+  if (!value.name.starts_with("STR")) return 0.0;
   return unseen_bend * result.surface->noise_mm /
          std::sqrt(static_cast<double>(result.surface->readings));
 }
 
-Estimate estimate_of(const NamedValue& value, const Spread& spread, bool unresolved,
-                     double unseen) {
-  const bool nothing = std::abs(value.value) < rounding && spread.u < rounding;
-  if (nothing && unseen == 0.0) return {0.0, 0.0, value.unit, ""};
-  if (!nothing && !unresolved) return {value.value, spread.u, value.unit, ""};
-  return {
-      .unit = value.unit,
-      .why_not = "no form beyond the noise",
-      .interval = std::array{0.0, std::max({spread.bound, value.value + 2.0 * spread.u, unseen})}};
-}
-
+/// A section by itself has the value that any other program gives it, with the bias by noise.
 void hand_out(FormResult& result, const std::vector<NamedValue>& values,
               const std::vector<Spread>& spread) {
-  const Unresolved unresolved(values, spread, result.options.coverage_factor);
+  const Bounded bounded(values, spread, result.options.coverage_factor);
   const std::size_t of_sections = std::ranges::count(values, "section", &NamedValue::group);
   const std::size_t each = result.sections.empty() ? 0 : of_sections / result.sections.size();
   for (std::size_t v = 0; v < values.size(); ++v) {
     const NamedValue& one = values[v];
     auto& list = one.group == "section" ? result.sections[v / each].values
                                         : group_named(result, one.group).values;
-    const bool bound = result.surface && unresolved.has(one, spread[v]);
-    Estimate estimate = estimate_of(one, spread[v], bound, unseen_mm(result, one));
-    const bool is_bound = bound || estimate.interval.has_value();
-    list.push_back({one.name, one.reference, std::move(estimate), spread[v].bias, is_bound});
+    list.push_back(result.surface ? bounded(one, spread[v], unseen_mm(result, one))
+                                  : as_measured(one, spread[v]));
   }
 }
 

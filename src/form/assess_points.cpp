@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
+#include "base/counted.hpp"
 #include "form/axis_line.hpp"
 #include "form/face.hpp"
 #include "form/notes.hpp"
@@ -21,12 +23,31 @@ constexpr double thickest_slice_mm = 0.5;
 
 using Points = std::span<const Point3>;
 
-/// The element by least squares: where values are to be looked for.
-AssociatedFeature nominal(Points points, Element element) {
+/// Every place once, in order: a point that is written again is not another reading.
+std::vector<Point3> once(Points points) {
+  std::vector<Point3> out;
+  std::set<Point3> known;
+  for (const Point3& one : points)
+    if (known.insert(one).second) out.push_back(one);
+  return out;
+}
+
+void note_again(std::size_t again, FormResult& result) {
+  if (again > 0)
+    result.notes.push_back(
+        fmt::format("{} to the last digit and counts once",
+                    counted(again, "point repeats another", "points repeat others")));
+}
+
+void expect_finite(Points points) {
   for (std::size_t i = 0; i < points.size(); ++i)
     for (const double one : points[i])
       if (!std::isfinite(one))
         throw InputError("points", fmt::format("point {} is not finite", i + 1));
+}
+
+/// The element by least squares: where values are to be looked for.
+AssociatedFeature nominal(Points points, Element element) {
   AssociatedFeature found = associate(points, element, Criterion::gaussian);
   if (found.status != AssociationStatus::converged) throw InputError("points", found.why);
   return found;
@@ -119,7 +140,7 @@ FormResult heights(const std::vector<Eigen::Vector3d>& points, bool plane,
     at.push_back(plane ? std::array{one.x(), one.y()} : std::array{one.z(), 0.0});
     height.push_back(plane ? one.z() : one.x());
   }
-  assess_heights(at, plane, height, {}, {}, result);
+  assess_heights(at, plane, height, ShownNoise::around, {}, {}, result);
   return result;
 }
 
@@ -152,7 +173,7 @@ FormResult space_line(const std::vector<Eigen::Vector3d>& points, const FormOpti
 }  // namespace
 }  // namespace form
 
-FormResult assess_form(std::span<const Point3> points_mm, Element element,
+FormResult assess_form(std::span<const Point3> written_mm, Element element,
                        const FormOptions& options) {
   using namespace form;
   expect_options(options);
@@ -161,12 +182,17 @@ FormResult assess_form(std::span<const Point3> points_mm, Element element,
     throw InputError("points", fmt::format("ISO 1101 does not define form parameters of a {}: use "
                                            "`trueaxis fit --points` for its zone",
                                            element_names[static_cast<std::size_t>(element)]));
+  expect_finite(written_mm);
+  const std::vector<Point3> points_mm = once(written_mm);
   const AssociatedFeature found = nominal(points_mm, element);
   const std::vector<Eigen::Vector3d> points = in_frame(points_mm, found);
-  if (element == Element::circle || element == Element::cylinder)
-    return revolved(points, element, options);
-  if (element == Element::line && !found.in_plane) return space_line(points, options);
-  return heights(points, element == Element::plane, options);
+  FormResult result = element == Element::circle || element == Element::cylinder
+                          ? revolved(points, element, options)
+                      : element == Element::line && !found.in_plane
+                          ? space_line(points, options)
+                          : heights(points, element == Element::plane, options);
+  note_again(written_mm.size() - points_mm.size(), result);
+  return result;
 }
 
 }  // namespace trueaxis

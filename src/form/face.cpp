@@ -11,6 +11,8 @@
 #include <ranges>
 
 #include "base/threads.hpp"
+#include "form/bounded.hpp"
+#include "form/point_noise.hpp"
 #include "form/section_model.hpp"
 #include "form/stream_checks.hpp"
 #include "form/uncertainty.hpp"
@@ -153,7 +155,7 @@ double noise_in_order(std::span<const double> off_mm) {
 }  // namespace
 
 void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
-                    std::span<const double> height_mm, const AssessHeights& more,
+                    std::span<const double> height_mm, ShownNoise shown, const AssessHeights& more,
                     std::span<const TakenOff> taken_off, FormResult& result) {
   const HeightModel model(at_mm, plane,
                           plane ? HeightModel::Names{"flatness", "FLT", "PL"}
@@ -165,19 +167,19 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
     return values;
   };
   const std::vector<double> off = model.off_mm(height_mm);
-  const double noise_mm = std::max(noise_in_order(off), result.options.noise_mm.value_or(0.0));
+  const double shown_mm =
+      shown == ShownNoise::in_order ? noise_in_order(off) : noise_of_points_mm(at_mm, plane, off);
+  const double noise_mm = std::max(shown_mm, result.options.noise_mm.value_or(0.0));
   const auto values = assess(height_mm);
   auto spread = spreads_of_heights(height_mm, off, noise_mm, result.options, assess);
   add_taken_off(taken_off, values, spread, [&](const TakenOff& one, std::size_t k) {
     return assess(added(height_mm, one, k));
   });
+  const Bounded bounded(values, spread, result.options.coverage_factor);
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (result.groups.empty() || result.groups.back().name != values[v].group)
       result.groups.push_back({values[v].group, {}});
-    result.groups.back().values.push_back({values[v].name,
-                                           values[v].reference,
-                                           {values[v].value, spread[v].u, values[v].unit, ""},
-                                           spread[v].bias});
+    result.groups.back().values.push_back(bounded(values[v], spread[v]));
   }
   result.notes.push_back(
       fmt::format("No filter along the surface: the values are those of the unfiltered readings, "
@@ -204,7 +206,7 @@ void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const T
   uncertain.push_back({columns_mm, independent});
   const auto rings = rings_of(stream);
   assess_heights(
-      at, true, height_mm,
+      at, true, height_mm, ShownNoise::in_order,
       [&](std::span<const double> heights) { return axial_run_out(rings, heights); }, uncertain,
       result);
 }

@@ -55,9 +55,13 @@ struct Lean {
 void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const TakenOff> taken_off,
                  FormResult& result);
 
+/// What shows the noise of heights: the readings before and after, or the points around, whatever
+/// their order.
+enum class ShownNoise { in_order, around };
+
 /// Flatness or straightness of heights, with U, as a group of the result.
 void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
-                    std::span<const double> height_mm, const AssessHeights& more,
+                    std::span<const double> height_mm, ShownNoise shown, const AssessHeights& more,
                     std::span<const TakenOff> taken_off, FormResult& result);
 
 }  // namespace trueaxis::form

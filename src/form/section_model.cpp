@@ -112,6 +112,7 @@ SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
                            const FormOptions& options)
     : trace_(readings, radius_known, options.high_upr),
       z_mm_(readings.z_mm),
+      bore_(options.bore),
       from_surface_mm_(from_surface_mm(options)),
       turns_(readings.turns),
       readings_(readings.size()),
@@ -130,6 +131,7 @@ SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
 SectionModel::SectionModel(StationOfSurface station, bool radius_known, const FormOptions& options)
     : trace_(station.raw, {station.x_mm, station.y_mm, station.mean_mm}, radius_known),
       z_mm_(station.z_mm),
+      bore_(options.bore),
       from_surface_mm_(from_surface_mm(options)),
       noise_mm_(station.noise_mm),
       shown_mm_(station.noise_mm),
@@ -210,8 +212,9 @@ std::vector<NamedValue> SectionModel::values_of(const std::vector<std::vector<do
     const auto [low, high] = range_of(off);
     const std::string about = short_name(criterion, "CI");
     values.push_back({"section", "RONt", about, high - low});
-    values.push_back({"section", "RONp", about, std::max(0.0, high)});
-    values.push_back({"section", "RONv", about, std::max(0.0, -low)});
+    const PeakAndValley of(low, high, bore_);
+    values.push_back({"section", "RONp", about, of.peak});
+    values.push_back({"section", "RONv", about, of.valley});
     double squares = 0.0, all = 0.0;
     for (std::size_t i = 0; i < off.size(); ++i)
       squares += shares_[i] * off[i] * off[i], all += shares_[i];

@@ -97,6 +97,7 @@ class SectionModel {
   double x_mm() const { return trace_.x_mm(); }  ///< pole of `raw()` in the part frame
   double y_mm() const { return trace_.y_mm(); }
   double radius_mm() const { return trace_.mean_mm(); }  ///< of the ball's centre
+  bool bore() const { return bore_; }
   double surface_radius_mm() const { return radius_mm() - from_surface_mm_; }
   bool radius_known() const { return trace_.radius_mm() > 0.0; }
 
@@ -110,6 +111,7 @@ class SectionModel {
 
   SectionTrace trace_;
   std::optional<double> z_mm_;
+  bool bore_ = false;
   double from_surface_mm_ = 0.0;  ///< the ball's centre, outwards
   double noise_mm_ = 0.0, shown_mm_ = 0.0, averaged_ = 1.0;
   double cutoff_rad_ = 0.0, low_upr_ = 1.0, high_upr_ = 0.0, turns_ = 1.0;

@@ -327,8 +327,9 @@ std::vector<NamedValue> WholeModel::values_of(
     const auto [low, high] = range_of(fit.off_mm);
     const std::string about = short_name(criterion, "CY");
     add("CYLt", about, high - low);
-    add("CYLp", about, std::max(0.0, high));
-    add("CYLv", about, std::max(0.0, -low));
+    const PeakAndValley of(low, high, sections_.front().bore());
+    add("CYLp", about, of.peak);
+    add("CYLv", about, of.valley);
     add("CYLq", about, root_mean_square(fit.off_mm));
   }
   const std::vector<Eigen::VectorXd> of_sections = circles(filtered_mm);

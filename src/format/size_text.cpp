@@ -11,10 +11,10 @@ namespace trueaxis::layout {
 
 std::string size_plus_minus(const Estimate& estimate, double coverage_factor, double scale,
                             const std::string& unit) {
-  const double U = coverage_factor * estimate.u;
-  if (!estimate.determined() || !std::isfinite(U) || estimate.value > U)
+  const double within = bound_factor(coverage_factor) * estimate.u;
+  if (!estimate.determined() || !std::isfinite(within) || estimate.value > within)
     return plus_minus(estimate, coverage_factor, scale, unit);
-  return fmt::format("below {:.2g} {} (95 % confidence)", scale * (estimate.value + U), unit);
+  return fmt::format("below {:.2g} {} (95 % confidence)", scale * (estimate.value + within), unit);
 }
 
 }  // namespace trueaxis::layout

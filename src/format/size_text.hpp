@@ -7,7 +7,8 @@
 
 namespace trueaxis::layout {
 
-/// `plus_minus` for what is never below 0: "below 4.1 µm (95 % confidence)" if it is within its U.
+/// `plus_minus` for what is never below 0: "below 4.1 µm (95 % confidence)" if it is within its U,
+/// of k = 2 at least.
 std::string size_plus_minus(const Estimate& estimate, double coverage_factor, double scale,
                             const std::string& unit);
 

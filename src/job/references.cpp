@@ -23,9 +23,11 @@ double face_radius(const JobReference& reference, const FitResult& fit,
   return std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
 }
 
-/// Degrees of freedom of the σ in u; those of correlated readings count as so many fewer.
+/// Degrees of freedom of the σ in u, where u does not hold them yet; those of correlated readings
+/// count as so many fewer.
 double freedom_of(const FitResult& fit) {
-  if (fit.sigma_source == SigmaSource::sensor) return std::numeric_limits<double>::infinity();
+  if (fit.sigma_source == SigmaSource::sensor || fit.widened > 1.0)
+    return std::numeric_limits<double>::infinity();
   const auto free = static_cast<double>(fit.points) - static_cast<double>(fit.parameters.size());
   return std::max(1.0, free / (fit.u_factor * fit.u_factor));
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -16,6 +17,13 @@ double mad_sigma(std::span<const double> residuals) {
   std::ranges::transform(residuals, size.begin(), [](double r) { return std::abs(r); });
   static const double quartile = boost::math::quantile(boost::math::normal(), 0.75);
   return median(std::move(size)) / quartile;
+}
+
+double student_widening(double freedom, double coverage_factor) {
+  constexpr double as_normal = 1000.0;
+  if (!(freedom < as_normal)) return 1.0;
+  const double above = cdf(complement(boost::math::normal(), coverage_factor));
+  return quantile(complement(boost::math::students_t(freedom), above)) / coverage_factor;
 }
 
 double neighbour_correlation(std::span<const double> residuals, double clip) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <random>
 #include <sstream>
 
 #include "support/command_fixture.hpp"
@@ -168,7 +169,7 @@ TEST_F(FormCommand, PointsOfEveryElement) {
         std::snprintf(text, sizeof text, "%.10f %.10f %.10f\n", 20.0 * std::cos(t),
                       20.0 * std::sin(t), 50.0 + 1e-3 * std::cos(2.0 * t));
         plane += text;
-        std::snprintf(text, sizeof text, "%.10f %.10f 0\n", 0.1 * i, 1e-3 * (i % 2));
+        std::snprintf(text, sizeof text, "%.10f %.10f 0\n", 0.1 * i, 5e-4 * std::cos(4.0 * t));
         line += text;
       }
     }
@@ -189,6 +190,30 @@ TEST_F(FormCommand, PointsOfEveryElement) {
               lobes, 1e-8);
   EXPECT_NEAR(value(of("plane", "").at("groups").at(0).at("values"), "FLTt", "MZPL"), 2e-3, 1e-8);
   EXPECT_NEAR(value(of("line", "").at("groups").at(0).at("values"), "STRt", "MZLI"), 1e-3, 1e-8);
+}
+
+// The words around a number: the unit next to the bound, no direction of an eccentricity that
+// points do not have.
+TEST_F(FormCommand, TheWordsAroundABoundAndACircleOfPoints) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0.0, 1e-3);
+  std::string plane, circle;
+  char text[96];
+  for (int i = 0; i < 400; ++i) {
+    std::snprintf(text, sizeof text, "%d %d %.7f\n", i % 20, i / 20, noise(random));
+    plane += text;
+    const double t = two_pi * i / 400.0, r = 12.0 + noise(random);
+    std::snprintf(text, sizeof text, "%.7f %.7f 0\n", 3.0 + r * std::cos(t), r * std::sin(t));
+    circle += text;
+  }
+  write("plane.txt", plane);
+  write("circle.txt", circle);
+  const std::string met = command("form plane.txt --element plane --tolerance-um FLTt=100").out;
+  EXPECT_TRUE(met.starts_with("MET: FLTt MZPL below ")) << met;
+  EXPECT_TRUE(contains(first_line(met), " µm (95 % confidence), tolerance 100 µm")) << met;
+  const CommandStreams round = command("form circle.txt --element circle");
+  EXPECT_EQ(round.exit_code, 0) << round.err;
+  EXPECT_FALSE(contains(round.out, "eccentricity")) << round.out;
 }
 
 TEST_F(FormCommand, RefusesWhatTheReadingsDoNotCarry) {

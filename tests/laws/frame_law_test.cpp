@@ -178,8 +178,8 @@ TEST_P(FrameLaw, EveryReadingTwice) {
     const auto p = static_cast<double>(e.base.size());
     const double shrink = std::sqrt((n - p) / (2.0 * n - p));
     for (const auto& [name, estimate] : e.base) {
-      EXPECT_NEAR(by_name(result).at(name).u * e.result.u_factor / result.u_factor,
-                  shrink * estimate.u, 1e-6 * estimate.u)
+      EXPECT_NEAR(by_name(result).at(name).u / (result.u_factor * result.widened),
+                  shrink * estimate.u / (e.result.u_factor * e.result.widened), 1e-6 * estimate.u)
           << name;
     }
   });

@@ -167,7 +167,7 @@ std::vector<double> rounding_of_parameters(const LawCase& c, const FitResult& re
   const std::vector<double> expected = expected_parameters(c);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const double root_inverse =
-        result.parameters.at(i).estimate.u / result.sigma_mm / result.u_factor;
+        result.parameters.at(i).estimate.u / result.sigma_mm / result.u_factor / result.widened;
     out.push_back(norm * root_inverse + 8.0 * epsilon * std::abs(expected[i]));
   }
   return out;

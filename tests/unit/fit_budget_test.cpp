@@ -297,12 +297,15 @@ TEST(FitUncertainty, OfCorrelatedNoiseTakesFreedom) {
     noise.correlated->jtcj = Eigen::Vector2d(8.0, 2.0).asDiagonal();
     ReadingNoise stated = noise;
     stated.source = SigmaSource::sensor;
-    take_in(two, noise), take_in(two, stated);
+    stated.stated_mm = 1e-3;
+    take_in(two, 2.0, noise), take_in(two, 2.0, stated);
     EXPECT_NEAR(noise.sigma_mm, 1e-3 * std::sqrt(redundancy / left), 1e-15);
     EXPECT_EQ(noise.shown_mm, noise.sigma_mm);
     EXPECT_EQ(stated.sigma_mm, 1e-3);
     EXPECT_NEAR(noise.u_factor, 2.0, 1e-12);
     EXPECT_NEAR(stated.u_factor, 2.0, 1e-12);
+    EXPECT_EQ(noise.widened, student_widening(std::max(1.0, redundancy / 4.0), 2.0));
+    EXPECT_EQ(stated.widened, 1.0);
   }
 }
 

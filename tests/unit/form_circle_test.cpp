@@ -245,5 +245,24 @@ TEST(FormCircle, HarmonicsAtUnevenAngles) {
   EXPECT_NEAR(orders[77].phase_rad(), 2.0, 1e-9);
 }
 
+// A groove of 8 µm in a bore goes into the material: a valley, and a peak of a shaft's profile of
+// the same radii (ISO 12181-1).
+TEST(FormCircle, AGrooveInABoreIsAValley) {
+  const auto deeper = [](double t) {
+    return 20.0 + 8e-3 * std::exp(-std::pow((t - 3.0) / 0.1, 2));
+  };
+  const ProbeStream stream = section_stream(deeper, 720);
+  FormOptions options = quick();
+  const auto value = [&](const char* name) {
+    return value_of(assess_form(stream, options).sections[0].values, name, "LSCI").estimate.value;
+  };
+  const double high = value("RONp"), low = value("RONv");
+  EXPECT_GT(high, 6e-3);
+  EXPECT_LT(low, 2e-3);
+  options.bore = true;
+  EXPECT_DOUBLE_EQ(value("RONv"), high);
+  EXPECT_DOUBLE_EQ(value("RONp"), low);
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

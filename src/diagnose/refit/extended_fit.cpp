@@ -156,7 +156,7 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
     result.set_ups.back().parameters = result.parameters;
   }
   result.sigma_mm = base.sigma_mm;
-  result.u_factor = 1.0;
+  result.u_factor = result.widened = 1.0;
   if (base.whitened) result.sigma_source = SigmaSource::whitened_residuals;
   return result;
 }

@@ -175,6 +175,7 @@ Json fit_object(const FitResult& result) {
                    {"source", to_string(result.sigma_source)},
                    {"autocorrelation", number(result.autocorrelation)},
                    {"u_factor", number(result.u_factor)}};
+  if (result.widened > 1.0) json["noise"]["widened"] = result.widened;
   json["points"] = result.points;
   json["range"] = {{"min", with_unit(result.position_min_mm, "mm")},
                    {"max", with_unit(result.position_max_mm, "mm")}};
@@ -228,6 +229,7 @@ FitResult fit_from_object(const Json& json) {
     if (noise.at("source") == to_string(source)) fit.sigma_source = source;
   fit.autocorrelation = number_from(noise.at("autocorrelation"));
   fit.u_factor = number_from(noise.at("u_factor"));
+  fit.widened = noise.value("widened", 1.0);
   fit.points = json.at("points");
   fit.rejected = rejected_from(json.at("rejected"));
   fit.position_min_mm = value(json.at("range"), "min");

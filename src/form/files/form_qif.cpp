@@ -35,11 +35,12 @@ const std::map<std::string, QifFeatureKind> form_of{{"CYLt", QifFeatureKind::cyl
                                                     {"FLTt", QifFeatureKind::plane},
                                                     {"STRt", QifFeatureKind::line}};
 
-/// A value about the minimum zone; bounds are not a measured value.
 bool about_minimum_zone(const FormValue& one) {
-  if (one.estimate.interval) return false;
   return one.reference.empty() || one.reference.starts_with("MZ");
 }
+
+/// Bounds are not a measured value.
+bool is_measured(const FormValue& one) { return !one.estimate.interval; }
 
 QifValue value_of(const FormValue& one) {
   return {one.estimate.value, one.estimate.u, one.bias_mm};
@@ -75,7 +76,7 @@ std::vector<Placed> add_features(const FormResult& result, bool in_part_frame, Q
     const std::size_t at = qif.features.size();
     qif.features.push_back(circle_of(section, at + 1, result.radius_known, in_part_frame));
     for (const FormValue& one : section.values)
-      if (about_minimum_zone(one)) {
+      if (about_minimum_zone(one) && is_measured(one)) {
         if (one.name == "RONt") qif.features.back().form_mm = value_of(one);
         values.push_back({&one, at});
       }
@@ -83,22 +84,21 @@ std::vector<Placed> add_features(const FormResult& result, bool in_part_frame, Q
   for (const FormGroup& group : result.groups)
     for (const FormValue& one : group.values) {
       if (!about_minimum_zone(one)) continue;
-      values.push_back({&one});
       const auto kind = form_of.find(one.name);
-      if (kind == form_of.end()) continue;
-      values.back().feature = qif.features.size();
-      qif.features.push_back({.kind = kind->second,
-                              .name = one.name,
-                              .algorithm = "MINMAX",
-                              .form_mm = value_of(one)});
+      std::optional<std::size_t> feature;
+      if (kind != form_of.end()) {
+        feature = qif.features.size();
+        qif.features.push_back({.kind = kind->second, .name = one.name, .algorithm = "MINMAX"});
+        if (is_measured(one)) qif.features.back().form_mm = value_of(one);
+      }
+      if (is_measured(one)) values.push_back({&one, feature});
     }
   return values;
 }
 
-QifStatus judged(const Estimate& value, double coverage_factor, double limit_mm) {
-  const double U = coverage_factor * value.u;
-  if (value.value + U <= limit_mm) return QifStatus::pass;
-  return value.value - U > limit_mm ? QifStatus::fail : QifStatus::indeterminate;
+QifStatus judged(const FormValue& value, double coverage_factor, double limit_mm) {
+  if (most_of(value, coverage_factor) <= limit_mm) return QifStatus::pass;
+  return least_of(value, coverage_factor) > limit_mm ? QifStatus::fail : QifStatus::indeterminate;
 }
 
 /// The straightness of a line in space is the diameter of a cylinder, which is all that it has.
@@ -106,6 +106,19 @@ bool in_space(const FormResult& result, const std::string& name) {
   return name == "STRt" && std::ranges::any_of(result.groups, [](const FormGroup& group) {
            return group.name == "straightness" && group.values.size() == 1;
          });
+}
+
+/// The bounds of the whole, which QIF has no place for: " Bounds in place of a value: FLTt below
+/// …".
+std::string bounds_text(const FormResult& result) {
+  std::string text;
+  for (const FormGroup& group : result.groups)
+    for (const FormValue& one : group.values)
+      if (one.unresolved && about_minimum_zone(one))
+        text += fmt::format(
+            "{}{} {}", text.empty() ? " Bounds in place of a value: " : ", ", one.name,
+            form_value_text(one, result.options.coverage_factor, 1.0 / mm_per_um, "µm"));
+  return text.empty() ? text : text + '.';
 }
 
 std::string description(const FormResult& result) {
@@ -119,8 +132,9 @@ std::string description(const FormResult& result) {
   return fmt::format(
       "Form of {} ({}) about the minimum zone. Filter: {}. Datum: {}. combinedUncertainty is the "
       "standard uncertainty u, meanError what noise adds on average, which is included in u and "
-      "not subtracted. Status by ISO 14253-1 with U = {:g} u.",
-      result.source, result.input_hash, filter, datum, options.coverage_factor);
+      "not subtracted. Status by ISO 14253-1 with U = {:g} u.{}",
+      result.source, result.input_hash, filter, datum, options.coverage_factor,
+      bounds_text(result));
 }
 
 }  // namespace
@@ -139,8 +153,8 @@ std::string form_qif(const FormResult& result, const std::vector<FormTolerance>&
     for (const auto& [value, feature] : values)
       if (value->name == tolerance.name)
         one.measurements.push_back(
-            {value_of(*value),
-             judged(value->estimate, result.options.coverage_factor, tolerance.limit_mm), feature});
+            {value_of(*value), judged(*value, result.options.coverage_factor, tolerance.limit_mm),
+             feature});
     if (!one.measurements.empty()) qif.characteristics.push_back(std::move(one));
   }
   return qif_document(qif, TRUEAXIS_VERSION);

@@ -34,8 +34,9 @@ std::string cell(const FormValue* one, double k) {
   if (one->estimate.determined() && scale * k * one->estimate.u < least_shown)
     return fmt::format("{:.4f} ± < {:g}", scale * one->estimate.value, least_shown);
   if (one->unresolved) return fmt::format("< {:.2g}", scale * one->estimate.interval->back());
-  if (one->estimate.determined() && one->estimate.value <= k * one->estimate.u)
-    return fmt::format("< {:.2g}", scale * (one->estimate.value + k * one->estimate.u));
+  const double within = bound_factor(k) * one->estimate.u;
+  if (one->estimate.determined() && one->estimate.value <= within)
+    return fmt::format("< {:.2g}", scale * (one->estimate.value + within));
   return layout::plus_minus(one->estimate, k, scale, "");
 }
 
@@ -48,7 +49,8 @@ std::string filter_text(const FormOptions& options) {
 
 std::string heading(const FormResult& result) {
   if (result.sections.empty())
-    return fmt::format("Values in µm ± U (k = {:g}), no filter\n", result.options.coverage_factor);
+    return fmt::format("Values in µm ± U (k = {:g}), < a bound (95 % confidence), no filter\n",
+                       result.options.coverage_factor);
   const SectionForm& first = result.sections.front();
   if (result.surface)
     return fmt::format(
@@ -104,9 +106,10 @@ std::string one_section(const SectionForm& section, double k) {
   constexpr const char* circles[] = {"LSCI", "MZCI", "MCCI", "MICI"};
   std::string text = table(section.values, names, circles, k);
   const FormCircle& least = section.circles.front();
-  text += line("eccentricity",
-               cell(find(section.values, "eccentricity"), k) +
-                   fmt::format(" at {:.1f}°", std::atan2(least.y_mm, least.x_mm) / rad_per_deg));
+  if (const FormValue* eccentricity = find(section.values, "eccentricity"))
+    text += line("eccentricity",
+                 cell(eccentricity, k) +
+                     fmt::format(" at {:.1f}°", std::atan2(least.y_mm, least.x_mm) / rad_per_deg));
   if (const FormValue* radius = find(section.values, "radius"))
     text += line("radius", layout::plus_minus(radius->estimate, k, 1.0, "mm"));
   text += line("slope", cell(find(section.values, "slope"), k) + " µm/deg at most");
