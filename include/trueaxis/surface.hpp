@@ -56,7 +56,7 @@ struct AxisEstimate {
   /// Standard uncertainty of the slope in its worse direction, mm per mm; of both slopes together.
   double u_slope() const;
   double u_slopes() const;
-  /// Of the size of the slope, mm per mm: along the slope, or u_slope() if the slope is not larger.
+  /// The size of the slope has this one, mm per mm: along it, or u_slope() if it is not larger.
   double u_tilt() const;
 };
 

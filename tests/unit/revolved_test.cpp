@@ -217,7 +217,7 @@ TEST(AxisEstimate, UncertaintyIsThatOfTheWorseDirection) {
   EXPECT_NEAR(estimate.u_at(10.0), std::sqrt(2.0), 1e-12);
 }
 
-// Of a slope of 1e-3 towards x that of x, although y is less well known; of none the worse.
+// A slope of 1e-3 towards x has that of x, although y is less well known; none has the worse.
 TEST(AxisEstimate, UncertaintyOfATiltIsAlongIt) {
   AxisEstimate estimate{{0, 0, 1e-3, 0, 0.0}, {}};
   estimate.covariance.by_rows[10] = 1e-12;
