@@ -149,7 +149,7 @@ TEST(ApexInterval, IsThatOfTheProfileLikelihood) {
   ASSERT_EQ(cone.status, FitStatus::converged) << cone.message;
   const Estimate& k = cone.parameter("k");
   ASSERT_TRUE(k.interval);
-  const double variance = cone.sigma_mm * cone.sigma_mm;
+  const double variance = std::pow(cone.sigma_mm * cone.widened, 2);  // of few readings
   for (const double end_mm : *k.interval) {
     FitOptions options;
     options.profile = std::make_shared<FixedApex>(end_mm, cone.shape.radius_mm / -end_mm);
