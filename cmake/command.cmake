@@ -14,6 +14,9 @@ pkg_check_modules(INTERCHANGE REQUIRED IMPORTED_TARGET libzip ${TRUEAXIS_STATIC_
 option(TRUEAXIS_HDF5 "Read HDF5 and MATLAB files" ${TRUEAXIS_HDF5_DEFAULT})
 if(TRUEAXIS_HDF5)
   pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5 matio)
+  # Debian's folder of HDF5 has links to libraries that are where the system looks: no run path.
+  list(APPEND CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES ${HDF5_LIBRARY_DIRS})
+  list(FILTER CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES INCLUDE REGEX "^/usr/|^/lib")
   list(FILTER TRUEAXIS_FILES EXCLUDE REGEX "/interchange/no_hdf5\\.cpp$")
 else()
   list(FILTER TRUEAXIS_FILES EXCLUDE REGEX "/interchange/(hdf5|matlab)\\.cpp$")
