@@ -15,6 +15,7 @@ namespace {
 constexpr double level = 0.9545;      // of ±2 σ of a normal law
 constexpr double least_share = 1e-3;  // of u²: smaller sources count as normal
 constexpr double least_noise = 1e-3;  // of u, where the readings have none
+constexpr double small_share = 0.05;  // of u²: a source that its variance tells as well
 
 /// A direction of the axis at an end, as a row: its product with the base is the axis there.
 struct Direction {
@@ -77,9 +78,13 @@ void set_interval(const LinearisationPoint& point, AveragedAxis& average) {
   if (average.sources.empty()) return;
   const double scale = scale_of(point, average);
   const double u_mm = axis_uncertainty(point, average.within + scale * average.between).u_mm;
+  const auto share_without = [&](const Eigen::MatrixXd& rest) {
+    return u_mm > 0.0 ? 1.0 - std::pow(axis_uncertainty(point, rest).u_mm / u_mm, 2) : 0.0;
+  };
   for (std::size_t i = 0; i < average.sources.size(); ++i) {
-    const double left_mm = axis_uncertainty(point, without(point, average, i)).u_mm;
-    average.sources[i].share = u_mm > 0.0 ? 1.0 - std::pow(left_mm / u_mm, 2) : 0.0;
+    AveragedAxis::Source& source = average.sources[i];
+    source.share = share_without(average.within + scale * (average.between - source.covariance));
+    if (source.share > small_share) source.share = share_without(without(point, average, i));
   }
   average.between *= scale;
   for (AveragedAxis::Source& source : average.sources) source.covariance *= scale;
