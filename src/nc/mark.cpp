@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "nc/writer.hpp"
 
 namespace trueaxis::nc {
@@ -34,9 +35,9 @@ std::string marked(std::string text) {
 }
 
 std::optional<std::size_t> marked_line(std::string_view text) {
-  const std::size_t at = text.find(mark);
-  if (at == std::string_view::npos) return {};
-  return static_cast<std::size_t>(std::ranges::count(text.substr(0, at), '\n')) + 1;
+  const auto found = std::ranges::search(text, mark, {}, upper_case);
+  if (found.empty()) return {};
+  return static_cast<std::size_t>(std::count(text.begin(), found.begin(), '\n')) + 1;
 }
 
 std::string without_mark(std::string text) {

@@ -12,7 +12,7 @@ namespace trueaxis::nc {
 /// none.
 std::string marked(std::string text);
 
-/// The line (from 1) with the mark; none: the program has none.
+/// The line (from 1) with the mark, in capitals or not; none: the program has none.
 std::optional<std::size_t> marked_line(std::string_view text);
 
 std::string without_mark(std::string text);

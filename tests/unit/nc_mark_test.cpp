@@ -27,6 +27,11 @@ TEST(NcMark, IsACommentOfTheFirstLineWithoutOne) {
   EXPECT_EQ(marked("G1 X1 (hole 3)\n"), "G1 X1 (hole 3)\n");
 }
 
+TEST(NcMark, IsFoundInSmallLettersToo) {
+  EXPECT_EQ(marked_line("g54\n(compensated by TrueAxis)\n"), 2U);
+  EXPECT_EQ(marked_line("g54\n(compensated by hand)\n"), std::nullopt);
+}
+
 TEST(NcMark, KeepsToTheLongestLine) {
   const std::string full = "(" + std::string(249, 'a') + ")\n";
   EXPECT_EQ(marked(full + "G54\n"), full + "G54 (COMPENSATED BY TRUEAXIS)\n");
