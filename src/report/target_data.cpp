@@ -102,8 +102,10 @@ Json target_data(const JobResult& result) {
     const FitResult& fit = fit_used(result, i);
     const bool slipped =
         unsure && result.diagnoses.size() > i && result.diagnoses[i] && result.diagnoses[i]->slip();
+    const bool withheld = i < result.axis_unknown.size() && result.axis_unknown[i];
     const bool solved =
-        !slipped && (fit.status == FitStatus::converged || fit.status == FitStatus::max_iterations);
+        !slipped && !withheld &&
+        (fit.status == FitStatus::converged || fit.status == FitStatus::max_iterations);
     const double radius = face_radius(result, i);
     Json reference{{"index", i}, {"face", radius > 0.0}, {"face_radius_mm", radius}};
     if (i < result.job.references.size()) reference["weight"] = result.job.references[i].weight;

@@ -139,6 +139,13 @@ TEST_F(SeatsCommand, ASeatFromBeforeASlipIsNotKnown) {
   file("early.csv", slipped_at(12.0));
   const CommandStreams early = command("run early.csv -o early");
   ASSERT_EQ(early.exit_code, 0) << early.out << early.err;
+  // Nor is the first seat drawn on the page after the late slip: an ellipse of U at either end.
+  const auto ellipses = [&](const char* name) {
+    const std::string page = read_text(folder_ / name);
+    const std::regex ellipse("\"ellipse\"");
+    return std::distance(std::sregex_iterator(page.begin(), page.end(), ellipse), {});
+  };
+  EXPECT_EQ(ellipses("late/report.html"), ellipses("early/report.html") - 2);
   const json apart = result("early/result.json").at("seats_apart").at(0);
   for (const json& at : apart.at("at"))
     expect_holds(at.at("in_its_middle").at("offset"), 0.0, "offset");
