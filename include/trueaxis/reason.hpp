@@ -126,6 +126,7 @@ enum class ReasonCode {
   not_read,
   // Remedies.
   clamp_again,
+  probe_all_again,
   probe_again,
   probe_at_other_speed,
   measure,

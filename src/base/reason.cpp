@@ -32,7 +32,7 @@ constexpr std::string_view names =
     "axis_of_cut_not_stated datum_members_apart reference_off_datum form_not_met "
     "form_not_proven form_not_judged reads_a_face no_change_of_z cone_at_last no_taper_seen "
     "taper_seen not_one_surface one_seat_found seats_found seat range_by_options "
-    "range_by_keys radius_steps taper_changes not_read clamp_again probe_again "
+    "range_by_keys radius_steps taper_changes not_read clamp_again probe_all_again probe_again "
     "probe_at_other_speed measure turn_sign turn_sign_behind set_x_convention name_unit "
     "name_units clamp_all_once_c clamp_all_once_z probe_nearer take_common_datum "
     "quieter_probe_or_least_squares look_for_cause more_would_prove more_readings "

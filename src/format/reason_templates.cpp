@@ -79,7 +79,7 @@ std::string_view template_of(ReasonCode code) {
       {moved_taper, "{by:deg:pm}° of taper"},
       {slipped_between_references,
        "the part slipped while {name} was probed, and the other references may have been probed "
-       "before the slip: probe all of them again"},
+       "before the slip"},
       {left_out_at_an_end,
        "{ref}most of the {end} {count::.0f} readings of a pass are excluded because they do not "
        "lie where the others do: the part may have slipped there and have moved. Clamp it again "
@@ -237,6 +237,7 @@ std::string_view template_of(ReasonCode code) {
       {taper_changes, "the taper changes by {change:deg:.2g}° at Z {z::.4g} mm"},
       {not_read, "there are no readings about Z {z::.4g} mm"},
       {clamp_again, "clamp it again and probe again"},
+      {probe_all_again, "clamp the part again and probe all references again"},
       {probe_again, "probe again"},
       {probe_at_other_speed, "probe again at another speed and another feed"},
       {measure, "{what}"},

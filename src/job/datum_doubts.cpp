@@ -46,7 +46,8 @@ Reasons off_the_datum(const PlannedJob& result, bool members, ReasonCode code) {
 Reasons find_slip(const CheckInput& in) {
   return first_of_references(in.job, [&](std::size_t i) -> std::optional<Reason> {
     if (const auto slipped = slipped_since(in.job, i))
-      return Reason{ReasonCode::slipped_between_references, {*slipped}};
+      return Reason{ReasonCode::slipped_between_references, {*slipped}, {}, {}, {},
+                    {Reason{ReasonCode::probe_all_again}}};
     return {};
   });
 }

@@ -169,9 +169,11 @@ Verdict decide(const PlannedJob& result, std::span<const PartForm> forms) {
 Reasons Verdict::what_would_prove() const {
   if (reasons.empty()) return {};
   const ReasonCode code = reasons.front().code;
-  const bool by_tolerance =
-      code == ReasonCode::tolerance_not_proven || code == ReasonCode::file_too_coarse;
-  return by_tolerance ? reasons.front().remedies : Reasons{};
+  // The others' sentences end in their remedies.
+  const bool apart = code == ReasonCode::tolerance_not_proven ||
+                     code == ReasonCode::file_too_coarse ||
+                     code == ReasonCode::slipped_between_references;
+  return apart ? reasons.front().remedies : Reasons{};
 }
 
 const char* to_string(Decision decision) {

@@ -118,9 +118,10 @@ Json warnings_data(const JobResult& result) {
 Json next_data(const JobResult& result) {
   Json steps = Json::array();
   const Reasons would_prove = result.verdict.what_would_prove();
-  if (!would_prove.empty()) steps.push_back(words_of(would_prove, "; ", result));
   if (result.correction && would_prove.empty()) steps.push_back(cut_text(result));
-  if (const NextMeasurement* next = next_measurement(result))
+  if (!would_prove.empty())
+    steps.push_back(words_of(would_prove, "; ", result));
+  else if (const NextMeasurement* next = next_measurement(result))
     steps.push_back(measurement_text(*next));
   if (result.correction) return steps;
   if (result.verdict.decision == Decision::no_go)

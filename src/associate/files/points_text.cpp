@@ -5,6 +5,7 @@
 #include "associate/files/association_files.hpp"
 #include "base/number.hpp"
 #include "format/csv_text.hpp"
+#include "format/doubled_points.hpp"
 #include "format/file.hpp"
 #include "format/units.hpp"
 #include "interchange/number_file.hpp"
@@ -103,17 +104,25 @@ class Reader {
   std::vector<std::string_view> fields_;
 };
 
-}  // namespace
-
-PointText read_points(const std::string& path, const std::string& unit, const std::string& array) {
-  const std::string content = read_file(path);
-  if (is_number_file(content)) return points_of_numbers(path, content, unit, array);
-  if (!array.empty()) throw InputError(path, "is a text of points: remove --array");
+PointText points_of_text(const std::string& path, const std::string& content,
+                         const std::string& unit) {
   PointText out{.source = path, .hash = content_hash(content), .points_mm = {}, .lines = {}};
   Reader reader(path, unit);
   for_each_line(content, [&](auto line, std::size_t number) { reader.line(line, number, out); });
   reader.finish(out);
   return out;
+}
+
+}  // namespace
+
+PointText read_points(const std::string& path, const std::string& unit, const std::string& array) {
+  const std::string content = read_file(path);
+  const bool numbers = is_number_file(content);
+  if (!numbers && !array.empty()) throw InputError(path, "is a text of points: remove --array");
+  PointText points =
+      numbers ? points_of_numbers(path, content, unit, array) : points_of_text(path, content, unit);
+  refuse_doubled(points.points_mm, path);
+  return points;
 }
 
 }  // namespace trueaxis
