@@ -147,7 +147,7 @@ SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
   out.axis.axis = surface.axis(standing.working);
   const RowMajorMatrix jacobian = as_rows(surface.axis_jacobian(standing.working),
                                           static_cast<Eigen::Index>(standing.working.size()));
-  const RowMajorMatrix axis = jacobian * standing.covariance * jacobian.transpose();
+  const RowMajorMatrix axis = linear::propagated(jacobian, standing.covariance);
   std::copy_n(axis.data(), 16, out.axis.covariance.data());
   return out;
 }
@@ -323,12 +323,13 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
     std::vector<double> working = model.working(joint, part);
     const RowMajorMatrix report =
         as_rows(part.surface->report(working).jacobian, static_cast<Eigen::Index>(working.size()));
-    return Standing{*part.surface, std::move(working), a * covariance * a.transpose(), report * a};
+    return Standing{*part.surface, std::move(working), linear::propagated(a, covariance),
+                    report * a};
   };
   for (const PlacedSetUp& placed : set_ups) {
     const Standing standing = stand(placed);
     const RowMajorMatrix& jacobian = standing.report_jacobian;
-    const RowMajorMatrix edge = jacobian * covariance * jacobian.transpose();
+    const RowMajorMatrix edge = linear::propagated(jacobian, covariance);
     std::vector<FitParameter> parameters =
         report_parameters(model.info(), standing.surface.report(standing.working).value, jacobian,
                           edge, determination);
@@ -341,7 +342,7 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
   for (const Source& source : sources) {
     BudgetLine line{source.name, source.type, {}};
     const Eigen::VectorXd variance =
-        (last.report_jacobian * source.covariance * last.report_jacobian.transpose()).diagonal();
+        linear::propagated(last.report_jacobian, source.covariance).diagonal();
     for (const double v : variance) line.u.push_back(std::sqrt(std::max(v, 0.0)));
     result.budget.push_back(std::move(line));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "form/surface_model.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::form {
 
@@ -26,9 +27,11 @@ void SurfaceModel::find_unfollowed() {
       normal += row * row.transpose();
       right += row * left[i];
     }
-    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
-    if (!(normal(0, 0) > 2.0 * unknowns) || !(solver.rcond() > 1e-3)) continue;
-    station.unfollowed_mm = solver.solve(right);
+    const linear::Cholesky solver(normal);
+    if (!(normal(0, 0) > 2.0 * unknowns) ||
+        !(solver.positive_definite() && solver.reciprocal_condition() > 1e-3))
+      continue;
+    station.unfollowed_mm = solver.solve(Eigen::VectorXd(right));
     chi_squared += station.unfollowed_mm.dot(right);
     freedom += static_cast<double>(unknowns);
   }

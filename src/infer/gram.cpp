@@ -80,8 +80,8 @@ Solution solve(const Eigen::MatrixXd& gram, const Columns& columns) {
     inverse(i) = there ? 1.0 / values(i) : 0.0;
     out.rank += there;
   }
-  out.inverse = scale.asDiagonal() * vectors * inverse.asDiagonal() * vectors.transpose() *
-                scale.asDiagonal();
+  out.inverse = linear::propagated(linear::scaled_rows(scale, vectors),
+                                   Eigen::MatrixXd(inverse.asDiagonal()));
   out.coefficients = out.inverse * right;
   out.rss = gram(0, 0) - right.dot(out.coefficients);
   return out;

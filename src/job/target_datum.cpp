@@ -73,11 +73,11 @@ Common common_axis(const PlannedJob& result, const NamesOfDatum& names, double z
     out.metric += metric;
     out.share[i] = metric * moved_by(z_ref_mm - axis_of_reference(result, i).axis.z_ref_mm);
   }
-  const Eigen::LDLT<Matrix4> solver(out.metric);
-  if (solver.info() != Eigen::Success || !solver.isPositive() || !(solver.rcond() > 1e-14))
+  const linear::Cholesky solver(out.metric);
+  if (!solver.positive_definite() || !(solver.reciprocal_condition() > 1e-14))
     throw Refusal(
         "the readings of the datum do not determine its axis: probe it at two heights at least");
-  for (Matrix4& share : out.share) share = solver.solve(share).eval();
+  for (Matrix4& share : out.share) share = solver.solve(Eigen::MatrixXd(share));
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "job/doubts.hpp"
 #include "job/machine_motion.hpp"
+#include "math/linear_algebra.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/error.hpp"
 
@@ -55,12 +56,13 @@ LoopObservation ratio(const Axis& target, const AxisEstimate& cut) {
   Matrix42 design;
   design << x, -y, y, x, target.slope_x, -target.slope_y, target.slope_y, target.slope_x;
   const Eigen::Vector4d seen(cut.axis.x_mm, cut.axis.y_mm, cut.axis.slope_x, cut.axis.slope_y);
-  const Eigen::LDLT<Matrix4> covariance(Eigen::Map<const Matrix4>(cut.covariance.data()));
-  const Eigen::Matrix<double, 4, 2> weighted = covariance.solve(design);
+  const Eigen::MatrixXd covariance = Eigen::Map<const Matrix4>(cut.covariance.data());
+  const Eigen::Matrix<double, 4, 2> weighted =
+      linear::solve_normal(covariance, Eigen::MatrixXd(design));
   const Eigen::Matrix2d information = design.transpose() * weighted;
   const Eigen::Vector2d best = information.inverse() * (weighted.transpose() * seen);
   const Eigen::Vector4d left = seen - design * best;
-  const double wider = std::max(1.0, left.dot(covariance.solve(left)) / freedom);
+  const double wider = std::max(1.0, linear::weighed_square(left, covariance) / freedom);
   const std::complex<double> r(best(0), best(1)), log = std::log(r), turn = 1.0 / r;
   Eigen::Matrix2d to_log;
   to_log << turn.real(), -turn.imag(), turn.imag(), turn.real();

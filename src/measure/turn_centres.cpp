@@ -6,6 +6,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
@@ -72,7 +73,7 @@ class StraightAxis {
       normal.noalias() += row * row.transpose();
       right += value_mm[i] * row;
     }
-    q_ = normal.ldlt().solve(right);
+    q_ = linear::solve_normal(Eigen::MatrixXd(normal), Eigen::VectorXd(right));
   }
   std::vector<double> left(const ProbeStream& stream, std::span<const double> value_mm) const {
     std::vector<double> out(value_mm.begin(), value_mm.end());

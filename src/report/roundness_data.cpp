@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "math/linear_algebra.hpp"
 #include "report/chart_readings.hpp"
 #include "report/page_data.hpp"
 #include "trueaxis/units.hpp"
@@ -82,7 +83,7 @@ Eigen::VectorXd harmonics_of(const Trace& trace, int limit) {
     normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
     right += trace.um[i] * row;
   }
-  return normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  return linear::solve_normal(normal, right);
 }
 
 double at(const Eigen::VectorXd& harmonics, int from, double c_rad) {

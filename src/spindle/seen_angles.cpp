@@ -38,8 +38,10 @@ Correction correction_of(const Eigen::VectorXd& angles_rad, const Eigen::MatrixX
   Eigen::MatrixXd along(sensors, 2), across(sensors, 2);
   along << angles_rad.array().cos(), angles_rad.array().sin();
   across << -along.col(1), along.col(0);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(along, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::MatrixXd none = svd.matrixU().rightCols(spare);
+  const Eigen::MatrixXd seen = linear::orthonormal_basis(along);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(sensors, sensors);
+  const Eigen::MatrixXd none =
+      linear::spectrum(linear::beside(seen, identity)).vectors.rightCols(spare);
   const Eigen::MatrixXd weights = linear::least_squares(Eigen::MatrixXd(along.transpose() * along),
                                                         Eigen::MatrixXd(along.transpose()));
   const Eigen::MatrixXd motion_mm = read_mm * weights.transpose();
@@ -56,7 +58,7 @@ Correction correction_of(const Eigen::VectorXd& angles_rad, const Eigen::MatrixX
     const double level =
         noise_mm.squaredNorm() / count / none.col(j).cwiseAbs2().dot(levels);  // mm² of a level
     const Eigen::Matrix2d moved = square - level * of_noise;
-    if (!(moved.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > 0.0)) return {};
+    if (!(moved(0, 0) > 0.0 && moved.determinant() > 0.0)) return {};  // positive definite
     const Eigen::Matrix2d inverse = moved.inverse();
     const Eigen::Vector2d share = inverse * together;
     const Eigen::Matrix2d by_noise =
@@ -69,7 +71,7 @@ Correction correction_of(const Eigen::VectorXd& angles_rad, const Eigen::MatrixX
       for (Index s = 0; s < unknown; ++s) design(2 * j + k, s) = none(s + 1, j) * across(s + 1, k);
     }
   }
-  const Eigen::MatrixXd gain = design.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd gain = linear::pseudo_inverse(design);
   return {gain * shares, (gain.cwiseAbs2() * u.cwiseAbs2()).cwiseSqrt()};
 }
 

@@ -188,7 +188,7 @@ MachineFinding finding_of(const infer::Dictionary& dictionary, const std::vector
 
   const VectorXd value = block.back * a;
   const MatrixXd covariance =
-      variance * block.back * all.inverse.bottomRightCorner(rank, rank) * block.back.transpose();
+      variance * linear::propagated(block.back, all.inverse.bottomRightCorner(rank, rank));
   out.covariance = with_names(term.of.parameters, covariance);
   for (Index k = 0; k < value.size(); ++k)
     out.parameters.push_back(

@@ -13,6 +13,7 @@
 #include "diagnose/search/local_forms.hpp"
 #include "infer/significance.hpp"
 #include "infer/size_posterior.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -145,7 +146,7 @@ class Averaging {
     Alternative out;
     out.off =
         without.coefficients.head(n_) - per_unit * weighed.mean - named_.coefficients.head(n_);
-    out.covariance = per_unit * weighed.covariance * per_unit.transpose();
+    out.covariance = linear::propagated(per_unit, weighed.covariance);
     return out;
   }
 
@@ -161,7 +162,7 @@ class Averaging {
     for (const SizePart& part : size_posterior(stated_prior(wide_.terms[place]), beside,
                                                wide_.places[place], wide_.equations.count()))
       list.push_back({probability * part.weight, -per_unit * part.mean,
-                      per_unit * part.covariance * per_unit.transpose()});
+                      linear::propagated(per_unit, part.covariance)});
   }
 
   /// @param law the normals of the list; empty: they are those
@@ -218,8 +219,7 @@ class Averaging {
         infer::weigh(slope_prior(wide_.terms[term], bend), project(gram_, named_.columns), own,
                      wide_.equations.count());
     const Eigen::MatrixXd per_unit = base_per_unit(wide_.places.size() - 1, named_);
-    Alternative named{1.0, -per_unit * slope.mean,
-                      per_unit * slope.covariance * per_unit.transpose()};
+    Alternative named{1.0, -per_unit * slope.mean, linear::propagated(per_unit, slope.covariance)};
     for (const AmbiguousFinding& f : findings_)
       if (f.term == term) named.probability = f.found.probability;
     add({named}, slope_->effect, wide_.terms[term].id(), out);

@@ -32,7 +32,7 @@ Direction worse_at(const LinearisationPoint& point, double end, const Eigen::Mat
   Eigen::MatrixXd at = Eigen::MatrixXd::Zero(2, covariance.rows());
   at(0, from) = at(1, from + 1) = 1.0;
   if (point.base.tilts) at(0, from + 2) = at(1, from + 3) = end * point.z_half_mm;
-  const auto [values, vectors] = linear::spectrum(at * covariance * at.transpose());
+  const auto [values, vectors] = linear::spectrum(linear::propagated(at, covariance));
   return {at.transpose() * vectors.col(1)};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fit/apex_interval.hpp"
+#include "math/linear_algebra.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
 
@@ -97,11 +98,12 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
   const double z_mid = point.z_mid_mm;
   const std::size_t n = result.parameters.size();
   const std::vector<double> jacobian = reported_jacobian(result.surface, result.shape, z_mid);
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> slope(
-      jacobian.data(), static_cast<Eigen::Index>(n), 6);
-  const Eigen::MatrixXd joint_covariance = slope * covariance * slope.transpose();
-  const Eigen::VectorXd from_noise = (slope * of_noise * slope.transpose()).diagonal();
-  Eigen::VectorXd from_causes = (slope * of_causes * slope.transpose()).diagonal();
+  const Eigen::MatrixXd slope =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>>(
+          jacobian.data(), static_cast<Eigen::Index>(n), 6);
+  const Eigen::MatrixXd joint_covariance = linear::propagated(slope, covariance);
+  const Eigen::VectorXd from_noise = linear::propagated(slope, of_noise).diagonal();
+  Eigen::VectorXd from_causes = linear::propagated(slope, of_causes).diagonal();
   const auto root = [](const Eigen::VectorXd& variance, std::size_t i) {
     return std::sqrt(std::max(0.0, variance(static_cast<Eigen::Index>(i))));
   };
@@ -123,8 +125,7 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
   for (const StatedPart& part : base.stated) {
     std::erase_if(result.budget,  // of the ideal fit
                   [&](const BudgetLine& line) { return line.source == part.name; });
-    const Eigen::VectorXd variance =
-        (slope * of_last(part.covariance) * slope.transpose()).diagonal();
+    const Eigen::VectorXd variance = linear::propagated(slope, of_last(part.covariance)).diagonal();
     from_causes -= variance;
     add_line(part.name, variance);
   }
@@ -133,7 +134,7 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
   Eigen::MatrixXd at = Eigen::MatrixXd::Zero(4, 6);
   at.leftCols(4).setIdentity();
   at(0, 2) = at(1, 3) = face ? 0.0 : result.axis.axis.z_ref_mm - z_mid;
-  const Eigen::MatrixXd axis = at * covariance * at.transpose();
+  const Eigen::MatrixXd axis = linear::propagated(at, covariance);
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j)
       result.axis.covariance.by_rows[i * 4 + j] +=
@@ -147,8 +148,8 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
       d.estimate.u = std::max(d.estimate.u, result.axis.u_at(z));
       continue;
     }
-    const Eigen::RowVectorXd g = derived_slope(d.name, result.axis.axis);
-    const double variance = (g * covariance * g.transpose())(0, 0);
+    const Eigen::MatrixXd g = derived_slope(d.name, result.axis.axis);
+    const double variance = linear::propagated(g, covariance)(0, 0);
     if (variance > 0.0) d.estimate.u = std::max(d.estimate.u, std::sqrt(variance));
   }
   if (!result.set_ups.empty()) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -40,7 +41,7 @@ double squares_left(const Sums& sums) {
   gram.diagonal() *= 1.0 + none;
   gram.diagonal().array() += none * sums(0, 0);
   const Eigen::Matrix<double, 6, 1> right = sums.topRightCorner<6, 1>();
-  return std::max(sums(6, 6) - right.dot(gram.ldlt().solve(right)), 0.0);
+  return std::max(sums(6, 6) - linear::weighed_square(right, gram), 0.0);
 }
 
 }  // namespace

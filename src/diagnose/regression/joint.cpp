@@ -68,7 +68,7 @@ AxisShift axis_shift(const LinearisationPoint& point, const Eigen::VectorXd& cha
   for (const double u : {-1.0, 1.0}) {  // the distance is convex along the axis
     const Eigen::MatrixXd at = position_at(point, u);
     const Eigen::VectorXd d = at * change.segment(from, per);
-    const Eigen::MatrixXd c = at * covariance.block(from, from, per, per) * at.transpose();
+    const Eigen::MatrixXd c = linear::propagated(at, covariance.block(from, from, per, per));
     const double length = d.norm();
     const Eigen::VectorXd along =
         length > 0.0 ? Eigen::VectorXd(d / length) : Eigen::VectorXd::Unit(2, 0);
@@ -95,7 +95,7 @@ AxisUncertainty axis_uncertainty(const LinearisationPoint& point,
   AxisUncertainty worst;
   for (const double u : {-1.0, 1.0}) {
     const Eigen::MatrixXd at = position_at(point, u);
-    const Eigen::MatrixXd c = at * base_covariance.block(from, from, per, per) * at.transpose();
+    const Eigen::MatrixXd c = linear::propagated(at, base_covariance.block(from, from, per, per));
     worst.u_mm = std::max(worst.u_mm, std::sqrt(std::max(0.0, linear::spectrum(c).values(1))));
     worst.rms_mm = std::max(worst.rms_mm, std::sqrt(std::max(0.0, c.trace())));
   }

@@ -105,8 +105,8 @@ std::optional<StateSpace> state_space(const Noise& noise) {
   sum(0, 0) = 1.0;
   constexpr int most_doublings = 40;
   for (int i = 0; i < most_doublings; ++i) {
-    sum += (power * sum * power.transpose()).eval();
-    power = (power * power).eval();
+    sum += linear::propagated(power, sum);
+    power = linear::product(power, power);
     if (!sum.allFinite() || !power.allFinite()) return std::nullopt;
     if (power.norm() < 1e-30) {
       out.covariance = sum / sum(0, 0);
@@ -152,7 +152,7 @@ bool whiten(const CleanStream& clean, const Noise& noise, Eigen::MatrixXd& rows)
     const Eigen::VectorXd gain = s / spread * covariance.col(0);
     state = (transition * (state + gain * innovation)).eval();
     covariance -= s * gain * covariance.row(0).eval();
-    covariance = (transition * covariance * transition.transpose()).eval();
+    covariance = linear::propagated(transition, covariance);
     covariance(0, 0) += space->fresh_variance;
   }
   return true;
