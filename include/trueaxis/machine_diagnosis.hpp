@@ -101,6 +101,7 @@ struct MachineUnexplained : UnnamedPattern {
   bool may_have_a_name = false;  ///< it has the form of an effect, together with something unknown
   std::vector<CalibratedParameter> parameters{};
   Covariance covariance{};  ///< of `parameters`
+  MachineTerm term{};       ///< of which error it is; monostate: of the tip or of one reading
 };
 
 /// An effect that these rows do not show. What shows it: `separate_with`.

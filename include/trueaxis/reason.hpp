@@ -192,6 +192,7 @@ enum class ReasonCode {
   not_corrected,
   more_rows_measured,
   measure_plan,
+  measure_between,
   plan,
   mend_and_run_again,
   name_the_program,

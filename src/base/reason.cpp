@@ -45,7 +45,7 @@ constexpr std::string_view names =
     "remark check_found pattern_counted tool_length_not_measured "
     "place_of_part_unknown one_tool_length of_the_part_alone of_found_directions "
     "known_without_u at_a_pole cut_in_pieces more_decimals leaves_line not_corrected "
-    "more_rows_measured measure_plan plan mend_and_run_again name_the_program "
+    "more_rows_measured measure_plan measure_between plan mend_and_run_again name_the_program "
     "probe_zero_and_run ";
 
 std::array<std::string, reason_codes> ids_of_names() {

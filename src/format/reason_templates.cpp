@@ -322,7 +322,9 @@ std::string_view template_of(ReasonCode code) {
       {remark, "{text}"},
       {check_found, "{check}: {text}"},
       {pattern_counted,
-       "{pattern} of {amplitude:um:.3g} µm has no known cause; it is included in U"},
+       "{pattern} of <{amplitude:um:.3g} µm><{angle:deg:.3g}°> has no known cause; it is included "
+       "in "
+       "U"},
       {tool_length_not_measured,
        "line {line::.0f} cuts with a tool of {length::.6g} mm, {beyond::.3g} mm from the measured "
        "lengths: a tilt of the spindle of 0.2 mrad, which they do not show, would move its tip by "
@@ -351,6 +353,7 @@ std::string_view template_of(ReasonCode code) {
        "U is {left:um:two} µm; about {times::.2g} times the {rows::.0f} rows would be enough, as U "
        "falls with the square root of their number"},
       {measure_plan, "measure {@plan}"},
+      {measure_between, "measure also at positions of {axis} between those measured"},
       {plan, "plan {plan}: {what} ({minutes::.0f} min)"},
       {mend_and_run_again, "Correct what the verdict names, and run the job again."},
       {name_the_program, "Name the part's program in a [program] table, and run the job again."},

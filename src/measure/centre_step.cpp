@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/linear_algebra.hpp"
 #include "measure/step_model.hpp"
 #include "trueaxis/units.hpp"
 
@@ -31,11 +32,14 @@ std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm, 
   double least = about_bend;
   Eigen::Index at = 0;
   const auto side = static_cast<Eigen::Index>(least_side);
-  for (Eigen::Index k = side; k + side <= n; ++k) {
+  const auto begin_at = [&](Eigen::Index k) {
     for (Eigen::Index i = 0; i < n; ++i) {
       model(i, 3) = i < k ? 0.0 : 1.0;
       model(i, 4) = i < k ? 0.0 : t(i) - t(k);
     }
+  };
+  for (Eigen::Index k = side; k + side <= n; ++k) {
+    begin_at(k);
     const double squares = squares_about(model, centres);
     if (squares >= least) continue;
     least = squares;
@@ -45,12 +49,11 @@ std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm, 
   if (at == 0 || least - noise > mostly * (about_line - noise)) return {};
   // A step and a change of slope of x and of y are four parameters, each centre a place for them.
   if (about_bend - least < enough(by_chance, run.size()) * variance(centres, u_mm)) return {};
-  const auto mean_of = [&](Eigen::Index from, Eigen::Index count) -> Eigen::Vector2d {
-    return centres.middleRows(from, count).colwise().mean().transpose();
-  };
-  const Eigen::Index few = std::min<Eigen::Index>({3, at, n - at});
+  // What a fit took of the step is a line, which is another column. The first turn may hold it.
+  begin_at(at);
+  const Eigen::MatrixXd sizes = linear::least_squares(model, Eigen::MatrixXd(centres));
   return CentreStep{run[static_cast<std::size_t>(at)].begin,
-                    (mean_of(at, few) - mean_of(at - few, few)).norm()};
+                    (sizes.row(3) + model(at + 1, 4) * sizes.row(4)).norm()};
 }
 
 }  // namespace

@@ -252,20 +252,21 @@ void state_findings(const TipFit& fit, const Found& search, const std::vector<Ma
       out.findings.push_back(std::move(found));
       continue;
     }
+    const Term& term = search.terms[search.found[at]];
     double square = 0.0;
     for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
-    const bool named = !search.terms[search.found[at]].is_pattern();
+    const bool named = !term.is_pattern();
     out.unexplained.push_back(
         {{{found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
            found.cause.unit, ""},
           found.p_value},
-         found.effect() + (named ? ", which may be part of something unknown"
-                           : search.terms[search.found[at]].of_one_reading
-                               ? " (measure it again, or leave the row out)"
-                               : ""),
+         found.effect() + (named                 ? ", which may be part of something unknown"
+                           : term.of_one_reading ? " (measure it again, or leave the row out)"
+                                                 : ""),
          named,
          found.parameters,
-         found.covariance});
+         found.covariance,
+         term.error ? ErrorOfPosition{*term.error, {}, {}} : found.cause.term});
   }
   std::ranges::stable_sort(out.findings, {}, &MachineFinding::p_value);
   std::ranges::stable_sort(out.unexplained, {}, &MachineUnexplained::p_value);

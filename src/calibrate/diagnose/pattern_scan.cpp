@@ -139,6 +139,7 @@ Term PatternScan::term_of(std::size_t unit, const PatternFunction& function) con
     const ErrorName name{true, direction, index_of(axes[k].name)};
     term.of.id = to_string(name) + ": " + function.words;
     if (name.angular()) term.of.unit = "rad";
+    term.error = name;
     term.letters += letter_of(axes[k].name);
     for (const ErrorFunction& one : function.functions) term.errors.push_back({name, one, 0.0});
   } else {

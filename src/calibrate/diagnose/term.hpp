@@ -30,6 +30,7 @@ struct Term {
   double size_spread = 1.0;         ///< of its logarithm
   std::size_t target = 0, row = 0;  ///< of a step of a ball: its target, and its first row
   std::size_t unit = 0;             ///< of a pattern: the column that its functions multiply
+  std::optional<ErrorName> error;   ///< of a pattern: which error of an axis has it
   double reach = 0.0;               ///< of a period: its frequency lies within, per mm or rad
   std::string letters;              ///< of the axes that it is a function of; t: of the time
   std::optional<PatternPlace> place;  ///< of a local pattern

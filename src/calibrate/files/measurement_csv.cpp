@@ -168,6 +168,18 @@ bool take_metadata(const MeasurementMetadata& metadata, const Machine& machine, 
   return !of_axis || metadata.axis.has_value();
 }
 
+/// Rows that a file has twice, as a block after the first or each after itself: noise writes no row
+/// again. Visits there and back come in the other order.
+bool is_doubled(std::span<const std::string_view> rows) {
+  constexpr std::size_t fewest = 8;
+  const std::size_t half = rows.size() / 2;
+  if (rows.size() < fewest || rows.size() % 2 != 0) return false;
+  if (std::ranges::equal(rows.first(half), rows.last(half))) return true;
+  for (std::size_t i = 0; i < half; ++i)
+    if (rows[2 * i] != rows[2 * i + 1]) return false;
+  return true;
+}
+
 }  // namespace
 
 MachineMeasurement read_measurement_csv(const std::string& path, const Machine& machine) {
@@ -180,6 +192,7 @@ MachineMeasurement read_measurement_csv(const std::string& path, const Machine& 
   Rows rows(out, diagnostics);
   bool header = false;
   std::size_t last = 0;
+  std::vector<std::string_view> lines;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     if (header && rows.columns.empty()) return;
     last = number;
@@ -195,12 +208,15 @@ MachineMeasurement read_measurement_csv(const std::string& path, const Machine& 
         rows.begin(measurement_columns(content, number, metadata, machine, diagnostics));
     } else {
       rows.row(content, number);
+      lines.push_back(trimmed(content));
     }
   });
   if (!header)
     diagnostics.add(0, 0, "has no header and no rows");
   else if (!diagnostics.any() && out.rows() == 0)
     diagnostics.add(last, 0, "has no rows");
+  else if (is_doubled(lines))
+    diagnostics.add(0, 0, "holds every row twice: keep each row once");
   else if (out.kind == MeasurementKind::axis && rows.covers_turn_in_radians())
     diagnostics.add(last, 0,
                     "the commands cover one revolution in rad, and the header has deg: write "
@@ -211,8 +227,20 @@ MachineMeasurement read_measurement_csv(const std::string& path, const Machine& 
 
 std::vector<MachineMeasurement> read_measurements(const std::vector<std::string>& paths,
                                                   const Machine& machine) {
-  return read_each(paths,
-                   [&](const std::string& path) { return read_measurement_csv(path, machine); });
+  auto all = read_each(
+      paths, [&](const std::string& path) { return read_measurement_csv(path, machine); });
+  std::vector<Diagnostic> wrong;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (all[i].input_hash == all[k].input_hash) {
+        wrong.push_back({paths[i], 0, 0,
+                         paths[i] == paths[k] ? "is named twice: name it once"
+                                              : "holds the rows of " + paths[k] +
+                                                    " again: measure twice, or name it once"});
+        break;
+      }
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  return all;
 }
 
 }  // namespace trueaxis

@@ -29,22 +29,39 @@ Reason beyond(const AxisRange& range, ReasonCode code) {
           {{"axis", std::string(1, letter_of(range.axis))}, {"unit", name}}};
 }
 
-/// The axis that takes the tip along by what was found and no program corrects.
-std::optional<AxisName> taken_along(const MachineTerm& term) {
-  if (const auto* sense = std::get_if<ErrorOfSense>(&term)) return sense->axis;
-  const auto* error = std::get_if<ErrorOfPosition>(&term);
-  if (error != nullptr && error->of) return static_cast<AxisName>(error->error.body);
-  return std::nullopt;
-}
+double length(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
 
 /// Largest motion of the tip by 1 mm or rad of an axis.
 double largest_gain(const MachineModel& model, AxisName axis, const std::vector<Stand>& stands) {
   double most = 0.0;
-  for (const Stand& stand : stands) {
-    const Vector3 by = model.jacobian(stand.axes, stand.setting)[index_of(axis)].tip_mm;
-    most = std::max(most, std::hypot(by[0], by[1], by[2]));
-  }
+  for (const Stand& stand : stands)
+    most = std::max(most, length(model.jacobian(stand.axes, stand.setting)[index_of(axis)].tip_mm));
   return most;
+}
+
+/// The same by 1 mm or rad of an error.
+double largest_gain(const MachineModel& model, const ErrorName& error,
+                    const std::vector<Stand>& stands) {
+  ErrorModel unit;
+  unit.reference_mm = model.errors().reference_mm;
+  unit.terms.push_back({error, ConstantError{1.0}});
+  const MachineModel alone(model.machine(), unit);
+  double most = 0.0;
+  for (const Stand& stand : stands)
+    most = std::max(most, length(alone.linear_error(stand.axes, stand.setting).tip_mm));
+  return most;
+}
+
+/// Largest motion of the tip by something of this size, mm or rad; none: it is no motion of the
+/// machine.
+std::optional<double> at_tip_mm(const MachineTerm& term, double size, const MachineModel& model,
+                                const std::vector<Stand>& stands) {
+  if (std::holds_alternative<TipDrift>(term)) return std::abs(size);
+  if (const auto* sense = std::get_if<ErrorOfSense>(&term))
+    return std::abs(size) * largest_gain(model, sense->axis, stands);
+  if (const auto* error = std::get_if<ErrorOfPosition>(&term))
+    return std::abs(size) * largest_gain(model, error->error, stands);
+  return std::nullopt;
 }
 
 /// Lengths of the tool at which was measured and at which the program cuts.
@@ -157,7 +174,8 @@ Reasons machine_reservations(const MachineJobResult& result) {
   for (const MachineUnexplained& one : result.diagnosis.unexplained)
     all.push_back({ReasonCode::pattern_counted,
                    {},
-                   {{"amplitude", one.amplitude.value, "mm"}},
+                   {{one.amplitude.unit == "rad" ? "angle" : "amplitude", one.amplitude.value,
+                     one.amplitude.unit == "rad" ? "rad" : "mm"}},
                    {{"pattern", one.pattern}}});
   for (const AxisRange& range : result.ranges)
     if (beyond_measured(range)) all.push_back(beyond(range, ReasonCode::axis_not_measured_there));
@@ -170,12 +188,14 @@ double not_corrected_mm(const MachineJobResult& result, const MachineModel& mode
                         const std::vector<Stand>& stands) {
   double sum = 0.0;
   for (const MachineFinding& found : result.diagnosis.findings) {
-    if (std::holds_alternative<TipDrift>(found.cause.term)) sum += std::abs(found.size);
-    if (const auto axis = taken_along(found.cause.term))
-      sum += std::abs(found.size) * largest_gain(model, *axis, stands);
+    // An order corrected in the place of another leaves both.
+    const double times = !is_machine_error(found.cause.term) ? 1.0 : found.likely_order ? 0.0 : 2.0;
+    if (times > 0.0)
+      sum += times * at_tip_mm(found.cause.term, found.size, model, stands).value_or(0.0);
   }
   for (const MachineUnexplained& one : result.diagnosis.unexplained)
-    sum += std::abs(one.amplitude.value);
+    sum += at_tip_mm(one.term, one.amplitude.value, model, stands)
+               .value_or(std::abs(one.amplitude.value));
   return sum;
 }
 
@@ -207,6 +227,16 @@ Reasons machine_remarks(const MachineJobResult& result) {
         {"left", std::ranges::max(poles, {}, &SingularBlock::direction_left_rad).direction_left_rad,
          "rad"}}});
   return all;
+}
+
+std::optional<Reason> between_positions(const MachineDiagnosis& diagnosis) {
+  for (const MachineFinding& found : diagnosis.findings) {
+    const auto axis = axis_of(found.cause.term);
+    if (!found.likely_order && axis)
+      return Reason{
+          ReasonCode::measure_between, {}, {}, {{"axis", std::string(1, letter_of(*axis))}}};
+  }
+  return {};
 }
 
 std::optional<Reason> next_plan(const MachineDiagnosis& diagnosis) {

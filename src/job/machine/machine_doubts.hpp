@@ -17,13 +17,17 @@ std::optional<Reason> extrapolated(const MachineJobResult& result);
 /// What leaves a go with reservations.
 Reasons machine_reservations(const MachineJobResult& result);
 
-/// What was found and no program corrects: the sizes of reversals and drifts at the tip, and the
-/// patterns that no effect explains.
+/// What was found and no program corrects, at the tip: reversals, drifts, patterns that no effect
+/// explains, and harmonics of which the order may be another.
 double not_corrected_mm(const MachineJobResult& result, const MachineModel& model,
                         const std::vector<Stand>& stands);
 
 /// What holds for the numbers whatever the verdict.
 Reasons machine_remarks(const MachineJobResult& result);
+
+/// "measure also at positions of C between those measured", where the order of a harmonic is open;
+/// none: no other plan tells it.
+std::optional<Reason> between_positions(const MachineDiagnosis& diagnosis);
 
 /// "plan L2: the same positions with a tool 70 mm longer (17 min)"; none: no plan tells more.
 std::optional<Reason> next_plan(const MachineDiagnosis& diagnosis);

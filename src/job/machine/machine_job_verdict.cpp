@@ -41,6 +41,7 @@ Reasons remedies(const MachineJobResult& result, const MachineJobVerdict& v, dou
     if (pieces_um >= 1.0) leaves.numbers.push_back({"pieces", pieces_um * mm_per_um, "mm"});
     return {leaves};
   }
+  if (const auto between = between_positions(result.diagnosis)) return {*between};
   if (v.not_corrected_mm > v.U_mm)
     return {{ReasonCode::not_corrected, {}, {{"not_corrected", v.not_corrected_mm, "mm"}}}};
   const double room_mm = tolerance_mm - v.path_after_mm() - v.not_corrected_mm;
@@ -78,7 +79,10 @@ Reason next_of(const MachineJobResult& result, const MachineJobVerdict& v) {
   if (!v.go()) return {ReasonCode::mend_and_run_again};
   if (!result.job.program) return {ReasonCode::name_the_program};
   Reason next{ReasonCode::probe_zero_and_run};
-  if (const auto plan = next_plan(result.diagnosis); plan && !v.reservations.empty())
+  if (v.reservations.empty()) return next;
+  if (const auto between = between_positions(result.diagnosis))
+    next.remedies = {*between};
+  else if (const auto plan = next_plan(result.diagnosis))
     next.remedies = {*plan};
   return next;
 }

@@ -45,7 +45,7 @@ std::string live_alarm(const LiveState& state) {
   if (state.deaf)
     return "the probe is deaf: its readings do not follow the part. Stop, and look at the probe";
   if (state.moved)
-    return fmt::format("the part slipped by {:.3g} µm{}", um(state.moved->size_mm),
+    return fmt::format("the part slipped by about {:.2g} µm{}", um(state.moved->size_mm),
                        state.moved->may_be_delay
                            ? ", or X is late and the speed changed: stop, and look at both"
                            : ": stop, and clamp it again");

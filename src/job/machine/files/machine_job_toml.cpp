@@ -104,14 +104,8 @@ void read_data(TomlDocument& document, const Said& said, MachineJob& job) {
   const auto data = collected(document, [&] { return read_measurements(said.data, job.machine); });
   if (!data) return;
   job.data = *data;
-  for (std::size_t i = 0; i < job.data.size(); ++i) {
+  for (std::size_t i = 0; i < job.data.size(); ++i)
     job.inputs.push_back({"measurement", said.data[i], job.data[i].input_hash});
-    for (std::size_t k = 0; k < i; ++k)
-      if (job.data[i].input_hash == job.data[k].input_hash && said.data[i] != said.data[k])
-        document.add(
-            {said.data[i], 0, 0,
-             "holds the rows of " + said.data[k] + " again: measure twice, or name it once"});
-  }
 }
 
 void read_program_file(TomlDocument& document, MachineJob& job) {
