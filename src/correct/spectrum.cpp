@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
+#include <span>
 
 #include "trueaxis/units.hpp"
 
@@ -104,10 +106,10 @@ void Spectrum::at(double position_mm, std::vector<SlowAmplitude>& amplitudes) co
     // Clenshaw for Σ c_j T_j(u) and its derivative.
     const std::vector<Complex>& c = coefficients_[i];
     Complex b1, b2, d1, d2;
-    for (std::size_t j = c.size() - 1; j > 0; --j) {
+    for (const Complex& c_j : std::span(c).subspan(1) | std::views::reverse) {
       const Complex d0 = 2.0 * u * d1 - d2 + 2.0 * b1;
       d2 = d1, d1 = d0;
-      const Complex b0 = c[j] + 2.0 * u * b1 - b2;
+      const Complex b0 = c_j + 2.0 * u * b1 - b2;
       b2 = b1, b1 = b0;
     }
     amplitudes[i].value = c[0] + u * b1 - b2;

@@ -52,12 +52,11 @@ LaggedGram lagged_gram(const PartAtSolution& at, const std::vector<double>& nois
   std::vector<char> begins(stream.size(), 0);
   for (const Pass& pass : at.passes) begins[pass.begin] = 1;
   PredictionBlock block;
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(group_blocks * block_size),
+                    static_cast<Eigen::Index>(1 + columns));
   for (std::size_t first = 0; first < stream.blocks(); first += stride) {
     const std::size_t last = std::min(first + group_blocks, stream.blocks());
     const std::size_t origin = first * block_size;
-    const std::size_t end = std::min(last * block_size, stream.size());
-    Eigen::MatrixXd x(static_cast<Eigen::Index>(end - origin),
-                      static_cast<Eigen::Index>(1 + columns));
     std::vector<Eigen::Index> rows;
     int unbroken = 0;  // readings up to this one
     for (std::size_t b = first; b < last; ++b) {

@@ -101,9 +101,10 @@ class CompressedCost final : public ceres::CostFunction {
     return true;
   }
 
-  /// The Hessian of a robust loss over JᵀWJ, kept where the model stays convex and below the cost.
+  /// The Hessian of a robust loss over JᵀWJ, which is at most 1, kept where the model stays convex
+  /// and below the cost.
   static double hessian_scale(const NormalMatrix& normal, double reach) {
-    const double scale = std::clamp(normal.curvature, least_curvature, 1.0);
+    const double scale = std::max(normal.curvature, least_curvature);
     return reach < scale * normal.sum_rho ? scale : 1.0;
   }
 
@@ -117,7 +118,7 @@ class CompressedCost final : public ceres::CostFunction {
     const Eigen::Map<const Vector> g(last_.normal.jtr.data(), p);
     const Vector step = Eigen::Map<const Vector>(working.data(), p) -
                         Eigen::Map<const Vector>(last_.working.data(), p);
-    const Vector h_step = std::clamp(last_.normal.curvature, least_curvature, 1.0) * (h * step);
+    const Vector h_step = std::max(last_.normal.curvature, least_curvature) * (h * step);
     const double change = step.dot(h_step) - 2.0 * g.dot(step);
     if (std::abs(change) > negligible * last_.normal.sum_rho) return false;
     last_.normal.sum_rho += change;
@@ -225,7 +226,7 @@ void polish(const JointModel& model, const LossScale& loss, Minimum& minimum) {
     Square<Eigen::Dynamic> r;
     Eigen::VectorXd z;
     factorise<Eigen::Dynamic>(minimum.normal, r, z);
-    const double curvature = std::clamp(minimum.normal.curvature, least_curvature, 1.0);
+    const double curvature = std::max(minimum.normal.curvature, least_curvature);
     if (z.squaredNorm() / curvature <= enough * minimum.normal.sum_rho) return;
     const Eigen::VectorXd step = linear::pivoted_least_squares(r, z) / curvature;
     Minimum next = minimum;

@@ -96,11 +96,11 @@ std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::si
   const double mean_x = 0.5 * c(0) * scale, mean_y = 0.5 * c(1) * scale;
   const double k_bx = tilts_ ? 0.5 * c(3) * scale / length : 0.0;
   const double k_by = tilts_ ? 0.5 * c(4) * scale / length : 0.0;
-  const double growth = tapers_ ? 0.5 * c(5) * scale * scale / length : 0.0;  // t r − K β
   const auto or_scale = [&](double square) { return square > 0.0 ? std::sqrt(square) : scale; };
   double x0 = mean_x, y0 = mean_y, bx = k_bx, by = k_by, t = 0.0;
   double radius = or_scale(c(2) * scale * scale + x0 * x0 + y0 * y0);
-  for (int round = 0; tapers_ && round < 6; ++round) {  // contracts by t·slope
+  for (int round = 0; tapers_ && round < 6; ++round) {          // contracts by t·slope
+    const double growth = 0.5 * c(5) * scale * scale / length;  // t r − K β
     t = (growth + k_bx * x0 + k_by * y0) / radius;
     const double k = 1.0 + t * t;
     bx = k_bx / k, by = k_by / k;

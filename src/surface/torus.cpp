@@ -39,7 +39,7 @@ class Torus final : public ProfileSurface {
   /// other radii through the same middle of the section, by a factor from half to double.
   std::vector<std::vector<double>> further_starts(const std::vector<double>& level) const override {
     std::vector<std::vector<double>> out;
-    for (const double factor : {0.5, 0.7, 1.0, 1.4, 2.0}) {
+    for (const double factor : {0.5, 0.7, 1.4, 2.0}) {
       out.push_back(level);
       double &radius = out.back()[level.size() - 2], &tube = out.back().back();
       radius += (1.0 - factor) * tube;

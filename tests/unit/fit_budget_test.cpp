@@ -9,6 +9,8 @@
 
 #include "fit/apex_interval.hpp"
 #include "fit/associate.hpp"
+#include "fit/joint_model.hpp"
+#include "fit/place_set_ups.hpp"
 #include "fit/uncertainty.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/fit.hpp"
@@ -62,6 +64,18 @@ std::vector<double> contributions(const ProbeStream& stream, const Influence& in
   EXPECT_EQ(found.budget.back().source, info_of(influence.kind).name);
   EXPECT_EQ(found.budget.back().type, 'B');
   return found.budget.back().u;
+}
+
+// Two clampings that lean otherwise and share radius and taper: there and back, to rounding.
+TEST(FitStart, PartsOfAModelJoinToThatModel) {
+  const ProbeStream stream = cone({}, true);
+  const JointModel model(stream, place_set_ups(stream), catalogue_entry(SurfaceKind::cone), {});
+  const std::vector<double> joint{0.8, -0.5, 0.2, 0.3, -0.3, 0.7, -0.1, 0.25, 25.0, 0.12};
+  ASSERT_EQ(model.parameter_count(), joint.size());
+  std::vector<std::vector<double>> of_parts;
+  for (const JointPart& part : model.parts()) of_parts.push_back(model.working(joint, part));
+  const std::vector<double> back = model.joined(of_parts);
+  for (std::size_t j = 0; j < joint.size(); ++j) EXPECT_NEAR(back[j], joint[j], 1e-13) << j;
 }
 
 // The influence is small enough for second orders to be below 1e-3 of the first. At its height the

@@ -126,6 +126,14 @@ TEST(FitPlausible, ReadingsThatScatterAreNotThoseOfAProbe) {
   EXPECT_TRUE(scatters(0.15, 0.2)) << "0.8";
   EXPECT_FALSE(scatters(0.25, 0.2)) << "0.62";
   EXPECT_FALSE(scatters(0.0, 0.3, 10.27)) << "neighbours do not meet the same form";
+  // The second of three rows has both its neighbours near; of two in a place none has.
+  for (const std::size_t in_place : {2U, 3U}) {
+    ProbeStream stream = part();
+    for (std::size_t i = 0; i < stream.size(); ++i)
+      stream.c_rad[i] += 37.0 * rad_per_deg * static_cast<double>(i / in_place);
+    EXPECT_EQ(says(why(stream, leaving(slow_and_noise(0.0, 0.11))), "single readings scatter"),
+              in_place == 3U);
+  }
 }
 
 // Every second reading off: a fifth of the squares of the residuals, six standard deviations, 5 µm.
@@ -204,6 +212,15 @@ TEST(FitPlausible, AShuffledWaveIsNoNoise) {
   };
   EXPECT_TRUE(unlike(wave(720), true));
   EXPECT_FALSE(unlike(wave(720), false)) << "it is ordered in time";
+  // Neighbours correlate by cos 0.37 of the part that is ordered, to 1/√720; the limit is 4/√720.
+  const auto partly = [&](std::ptrdiff_t ordered) {
+    std::vector<double> left = wave(720);
+    std::mt19937_64 random(49);
+    std::shuffle(left.begin() + ordered, left.end(), random);
+    return unlike(left, false);
+  };
+  EXPECT_TRUE(partly(30)) << "1/√720";
+  EXPECT_FALSE(partly(173)) << "6/√720";
   const auto steps = [](std::size_t count) {
     return made(count, [&](std::size_t i) { return 2 * i < count ? 0.02 : -0.02; });
   };

@@ -197,6 +197,28 @@ TEST(SurfaceCatalogue, ReportedJacobianIsThatOfTheReportedNumbers) {
   }
 }
 
+// For a face: l, m and d of the plane at right angles to the axis through its point at z_ref,
+// Eq. 11.
+TEST(SurfaceCatalogue, ReportedJacobianOfAFaceIsThatOfItsPlane) {
+  const auto reported = [](const std::array<double, 3>& at) {  // slopes, z_ref
+    const double n = 1.0 / std::hypot(1.0, at[0], at[1]);
+    return std::array<double, 3>{at[0] * n, at[1] * n, at[2] * n};
+  };
+  const std::array<double, 3> at{0.3, -0.2, 55.0};
+  const Revolved face{{0.0, 0.0, at[0], at[1], at[2]}, 0.0, 0.0};
+  const std::vector<double> jacobian = reported_jacobian(SurfaceKind::plane, face, 30.0);
+  ASSERT_EQ(jacobian.size(), 18U);
+  for (std::size_t j = 0; j < 3; ++j) {
+    std::array<double, 3> up = at, down = at;
+    constexpr double h = 1e-5;
+    up[j] += h, down[j] -= h;
+    const auto a = reported(up), b = reported(down);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(jacobian[6 * i + 2 + j], (a[i] - b[i]) / (2.0 * h), 1e-6 * (1.0 + std::abs(a[i])))
+          << i << ' ' << j;
+  }
+}
+
 /// d prediction / d working of a block by differences, against the columns; h⁴ and rounding over h.
 void expect_derivatives(const Surface& surface, const std::vector<double>& working,
                         const LevelReadings& at) {
