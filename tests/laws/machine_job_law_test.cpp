@@ -206,5 +206,39 @@ TEST(MachineJobLaw, AReversalTakesNothingOffTheUncertainty) {
     EXPECT_GT(with.tips[i].u_mm, 0.85 * without.tips[i].u_mm) << i;
 }
 
+// No program corrects these errors, and at the tip they are the largest: an angle of an order
+// without a cause, and order 8, which positions of C every 30° read as order 4. The tip is off by
+// more than U, and by no more than is stated.
+TEST(MachineJobLaw, WhatNoProgramCorrectsCountsAtTheTip) {
+  struct Hidden {
+    const char* error;
+    double order, size, step_deg;
+  };
+  Draw draw(20261130);
+  const Machine machine = trunnion();
+  const ErrorModel none;
+  for (const Hidden& hidden : {Hidden{"ECC", 7.0, 150e-6, 20.0}, Hidden{"EBC", 5.0, 200e-6, 20.0},
+                               Hidden{"EYC", 8.0, 9e-3, 30.0}}) {
+    ErrorModel truth = drawn_location_errors(machine, draw);
+    truth.terms.push_back({*parse_error_name(hidden.error),
+                           FourierError{{{hidden.order, hidden.size, 0.0}}, two_pi}});
+    BallPlan plan;
+    plan.c_deg.clear();
+    for (double c = 0.0; c < 360.0; c += hidden.step_deg) plan.c_deg.push_back(c);
+    MachineJob job;
+    job.machine = machine;
+    job.data = {measure_balls({machine, truth}, plan, sigma_mm, draw)};
+    job.program = MachineJobProgram{"touch.nc", touching_program({machine, none}, draw), {}};
+    job.program->options.decimals = 6, job.program->options.angle_decimals = 8;
+    const MachineJobResult result = run_machine_job(std::move(job));
+    const MachineJobVerdict& verdict = result.verdict;
+    const Truth real = truth_of(result, truth);
+    const double off_mm = largest_norm(without_rigid_body(real.wanted, real.after));
+    const double with_U_mm = verdict.after_mm + verdict.U_mm;  // at the ends, as `off_mm` is
+    EXPECT_GT(off_mm, with_U_mm) << hidden.error;
+    EXPECT_LT(off_mm, with_U_mm + verdict.not_corrected_mm) << hidden.error;
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

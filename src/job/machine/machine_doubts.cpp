@@ -52,8 +52,8 @@ double largest_gain(const MachineModel& model, const ErrorName& error,
   return most;
 }
 
-/// Largest motion of the tip by something of this size, mm or rad; none: it is no motion of the
-/// machine.
+/// Largest motion of the tip by something of this size, mm or rad; none: the machine does not move
+/// by it.
 std::optional<double> at_tip_mm(const MachineTerm& term, double size, const MachineModel& model,
                                 const std::vector<Stand>& stands) {
   if (std::holds_alternative<TipDrift>(term)) return std::abs(size);
