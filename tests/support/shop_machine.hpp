@@ -34,9 +34,11 @@ inline Machine shop_machine(const char* chain, Draw& draw) {
 /// Location errors of 20 µm and 50 µrad, all but those that are `held`; of every axis six component
 /// errors of 1 to 6 µm and 5 to 30 µrad RMS times `size`, each as likely as any other on a
 /// logarithmic scale: of a rotary axis orders 1 to 4 with amplitudes from nothing to the largest,
-/// of a linear one cubics without a straightness that would be squareness.
+/// of a linear one cubics without a straightness that would be squareness. With a `spread` sizes
+/// are log-normal, as far apart as this factor, and so are amplitudes normal about them.
 inline ErrorModel shop_errors(const Machine& machine, double size,
-                              const std::vector<std::string>& held, Draw& draw) {
+                              const std::vector<std::string>& held, Draw& draw,
+                              double spread = 0.0) {
   ErrorModel errors;
   std::normal_distribution<double> normal;
   const auto locate = [&](std::size_t body, std::size_t directions) {
@@ -53,15 +55,19 @@ inline ErrorModel shop_errors(const Machine& machine, double size,
   for (const MachineAxis& axis : machine.axes)
     for (std::size_t d = 0; d < 6; ++d) {
       const ErrorName name{true, d, index_of(axis.name)};
-      const double rms = size * (d < 3 ? 1e-3 : 5e-6) * std::pow(6.0, draw.between(0.0, 1.0));
+      const double rms = size * (d < 3 ? 1e-3 : 5e-6) *
+                         (spread > 0.0 ? 2.4 * std::pow(spread, normal(draw.engine))
+                                       : std::pow(6.0, draw.between(0.0, 1.0)));
       if (is_rotary(axis.name)) {
         FourierError fourier;
         double square = 0.0;
         for (int n = 1; n <= 4; ++n) {
-          const double a = draw.between(0.0, 1.0), phase = draw.between(0.0, two_pi);
+          const double a = spread > 0.0 ? std::hypot(normal(draw.engine), normal(draw.engine)) / n
+                                        : draw.between(0.0, 1.0),
+                       phase = draw.between(0.0, two_pi);
           fourier.terms.push_back(
               {static_cast<double>(n), a * std::cos(phase), a * std::sin(phase)});
-          square += 0.5 * a * a;
+          square += spread > 0.0 ? 1.0 / (n * n) : 0.5 * a * a;
         }
         for (auto& term : fourier.terms)
           term.cos *= rms / std::sqrt(square), term.sin *= rms / std::sqrt(square);
@@ -71,7 +77,9 @@ inline ErrorModel shop_errors(const Machine& machine, double size,
         const bool across = d < 3 && d != name.body;
         const double p1 = across ? 0.0 : normal(draw.engine), p2 = 0.5 * normal(draw.engine),
                      p3 = 0.3 * normal(draw.engine);
-        const double f = rms / std::sqrt(p1 * p1 / 3.0 + p2 * p2 / 5.0 + p3 * p3 / 7.0);
+        const double square = spread > 0.0 ? (across ? 0.0 : 1.0 / 3.0) + 0.25 / 5.0 + 0.09 / 7.0
+                                           : p1 * p1 / 3.0 + p2 * p2 / 5.0 + p3 * p3 / 7.0;
+        const double f = rms / std::sqrt(square);
         errors.terms.push_back(
             {name,
              PolynomialError{

@@ -63,20 +63,14 @@ class Regressor {
       solve_random();
       if (improve() < settled) break;
     }
-    set_scale();
-    MatrixXd normal = linear::scaled_both(products_, scale_);
-    normal /= variance_;
-    normal.diagonal().tail(random_).array() += 1.0;
-    const linear::Cholesky factors(normal);
-    const MatrixXd inverse = factors.inverse();
-    const VectorXd back = scale_.cwiseProduct(unit_);
-    const VectorXd x =
-        back.cwiseProduct(factors.solve(VectorXd(scale_.cwiseProduct(right_) / variance_)));
     RandomEffects out;
+    for (const double one : logs_) out.times.push_back(std::exp(one));
+    const VectorXd x = scale_after(logs_).cwiseProduct(unit_).cwiseProduct(
+        normal_factors().solve(VectorXd(scale_.cwiseProduct(right_) / variance_)));
     out.fixed = x.head(fixed_);
     out.random = x.tail(random_);
-    out.covariance = linear::scaled_both(inverse, back);
-    for (const double one : logs_) out.times.push_back(std::exp(one));
+    const VectorXd back = scale_after(widened_logs()).cwiseProduct(unit_);
+    out.covariance = linear::scaled_both(normal_factors().inverse(), back);
     out.times_all = std::exp(common_);
     out.variance = variance_;
     return out;
@@ -96,19 +90,48 @@ class Regressor {
     square_beside_ = square_ - along.squaredNorm();
   }
 
-  void set_scale() {
+  const VectorXd& scale_after(const std::vector<double>& logs) {
     scale_ = VectorXd::Ones(fixed_ + random_);
     Index at = fixed_;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
-      scale_.segment(at, groups_[g].shares.size()).setConstant(std::exp(logs_[g]));
+      scale_.segment(at, groups_[g].shares.size()).setConstant(std::exp(logs[g]));
       at += groups_[g].shares.size();
     }
+    return scale_;
+  }
+
+  /// N at the scale, in units of it.
+  linear::Cholesky normal_factors() const {
+    MatrixXd normal = linear::scaled_both(products_, scale_);
+    normal /= variance_;
+    normal.diagonal().tail(random_).array() += 1.0;
+    return linear::Cholesky(normal);
+  }
+
+  /// ln t plus its variance, which the readings leave open: E t² is t² exp 2v (Eq. 334).
+  std::vector<double> widened_logs() const {
+    const double own = tau_ * tau_, all = tau_all_ * tau_all_;
+    std::vector<double> seen;  // numbers of a group that the readings show
+    double of_common = 1.0 / all;
+    Index at = 0;
+    for (const RandomGroup& group : groups_) {
+      const Index n = group.shares.size();
+      seen.push_back(group.known ? 0.0 : static_cast<double>(n) - variances_.segment(at, n).sum());
+      of_common += 2.0 * seen.back() / (1.0 + 2.0 * seen.back() * own);
+      at += n;
+    }
+    std::vector<double> logs = logs_;
+    for (std::size_t g = 0; g < logs.size(); ++g) {
+      if (groups_[g].known) continue;
+      const double open = 1.0 / (1.0 + 2.0 * seen[g] * own);
+      logs[g] += open * own + open * open / of_common;
+    }
+    return logs;
   }
 
   /// Mean and variances of the random ones at the sizes so far.
   void solve_random() {
-    set_scale();
-    const auto scale = scale_.tail(random_);
+    const auto scale = scale_after(logs_).tail(random_);
     MatrixXd normal = linear::scaled_both(beside_, scale);
     normal /= variance_;
     normal.diagonal().array() += 1.0;
