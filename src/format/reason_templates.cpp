@@ -323,8 +323,7 @@ std::string_view template_of(ReasonCode code) {
       {check_found, "{check}: {text}"},
       {pattern_counted,
        "{pattern} of <{amplitude:um:.3g} µm><{angle:deg:.3g}°> has no known cause; it is included "
-       "in "
-       "U"},
+       "in what the tip is off by at most"},
       {tool_length_not_measured,
        "line {line::.0f} cuts with a tool of {length::.6g} mm, {beyond::.3g} mm from the measured "
        "lengths: a tilt of the spindle of 0.2 mrad, which they do not show, would move its tip by "

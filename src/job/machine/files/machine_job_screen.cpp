@@ -20,17 +20,19 @@ std::string machine_job_screen(const MachineJobResult& result) {
     const double U_um = verdict.U_mm / mm_per_um;
     const int decimals = decimals_of(U_um, 0);
     const double off_um = verdict.path_after_mm() / mm_per_um;
+    const double left_um = verdict.not_corrected_mm / mm_per_um;
+    const std::string left =
+        left_um > 0.0 ? fmt::format(", besides {:.2g} µm that no program corrects", left_um) : "";
     if (off_um <= U_um)
       text += fmt::format(
           "tip    off by less than {:.2g} µm with the new program (95 % confidence; the place of "
-          "the part excluded)\n",
-          off_um + U_um);
+          "the part excluded){}\n",
+          off_um + U_um, left);
     else
       text += fmt::format(
           "tip    off by {:.{}f} ± {:.{}f} µm with the new program (U, k = 2; the place of the "
-          "part "
-          "excluded)\n",
-          off_um, decimals, U_um, decimals);
+          "part excluded){}\n",
+          off_um, decimals, U_um, decimals, left);
   }
   if (result.compensation && result.compensation->unreachable.empty())
     text += changes_screen(*result.compensation);
