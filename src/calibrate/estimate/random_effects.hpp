@@ -29,8 +29,8 @@ struct RandomEffects {
 
 /// Regression of residuals r = F x + R a + e with x free, a random and e of variance φ (Eqs.
 /// 211-214): mean of x and a together at the most probable t and φ, and the covariance, in which t
-/// is uncertain (Eq. 334). φ is 1, or what
-/// the residuals show if that is more; what they show where no noise was stated.
+/// is uncertain (Eq. 334). φ is 1, or what the residuals show if that is more; what they show where
+/// no noise was stated.
 RandomEffects regress(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& fixed,
                       const Eigen::MatrixXd& random, const std::vector<RandomGroup>& groups,
                       bool noise_stated, const SizeSpread& spread = {});
