@@ -83,8 +83,8 @@ struct ProgramCompensation {
   std::size_t blocks_read = 0, blocks_moved = 0, blocks_rewritten = 0, blocks_inserted = 0;
   std::array<LargestInProgram, axis_count> largest_change{};  ///< of the words of an axis
   LargestToolError before, after;                             ///< at the ends of blocks, as written
-  /// Of the actual tip from the line between the nominal ends of G1 blocks, or from the way of the
-  /// nominal machine on an arc.
+  /// Of the actual tip from the line between the nominal ends of G1 blocks; or from the way of the
+  /// nominal machine on an arc, and where axes turn far or alone (Eq. 331).
   LargestInProgram between_before, between_after;
   LargestInProgram about_tool_axis;  ///< left about the tool's own axis
   std::array<LargestInProgram, axis_count> exact_minus_differential{};

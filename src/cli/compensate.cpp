@@ -108,7 +108,7 @@ void add_accuracy(CLI::App& command, CompensateArguments& options) {
              "rotary axes that a block may correct (default moved: those it moves)");
   add_option(command, "--tolerance-um", options.tolerance_um,
              number_in(0.0, true, 1e4, "a length above 0, up to 10000 um"),
-             "split G1 blocks: deviation allowed from the straight line, µm");
+             "split G1 blocks: deviation allowed from the way that a block means, µm");
   add_option(command, "--arcs-mm", options.arcs_mm,
              number_in(0.0, true, 1.0, "a length above 0, up to 1 mm"),
              "replace G2 and G3 by chords: deviation allowed from the arc, mm");

@@ -100,7 +100,7 @@ double BlockPath::deviation_mm(const Stretch& on, double of_interest_mm) const {
   };
   const double parts = parts_of(on.from, on.to, task_.bends);
   const auto looks = 2 * static_cast<std::size_t>(std::ceil(std::clamp(parts, 2.0, most_parts)));
-  const bool is_even = parts <= 0.5 && !nominal_.is_arc();
+  const bool is_even = parts <= 0.5 && !nominal_.is_curve();
   const double off_from_mm = off_nominal_mm(on.from_tip_mm, 0.0),
                off_to_mm = off_nominal_mm(on.to_tip_mm, 1.0);
   Vector3 middle{};

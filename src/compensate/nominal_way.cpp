@@ -4,7 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trueaxis/units.hpp"
+
 namespace trueaxis {
+
+bool means_own_way(const AxisPositions& from, const AxisPositions& to) {
+  constexpr double line_rad = 20.0 * rad_per_deg, still_mm = 1e-9;
+  double most_rad = 0.0, most_mm = 0.0;
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    double& most = is_rotary(static_cast<AxisName>(k)) ? most_rad : most_mm;
+    most = std::max(most, std::abs(to[k] - from[k]));
+  }
+  return most_rad > line_rad || (most_rad > 0.0 && most_mm < still_mm);
+}
 
 NominalWay::NominalWay(const CompensationTask& task, const nc::Move& move,
                        const AxisPositions& from, const Vector3& start_mm, const BlockEnd& to)
@@ -14,12 +26,15 @@ NominalWay::NominalWay(const CompensationTask& task, const nc::Move& move,
       from_(from),
       to_(to.commanded),
       start_mm_(start_mm),
-      end_mm_(to.tip_mm) {}
+      end_mm_(to.tip_mm),
+      is_curve_(is_arc() ||
+                (task.axes.mode(move.modal) == ProgramMode::axes && means_own_way(from_, to_))) {}
 
 AxisPositions NominalWay::axes_at(double s) const {
   const AxisPositions even = mix(from_, to_, s);
-  if (!is_arc())
+  if (!is_curve_)
     return axes_for_tip(task_.model, mix(start_mm_, end_mm_, s), even, setting_).value_or(even);
+  if (!is_arc()) return even;
   const nc::AxisValues words = task_.program.arcs[move_.arc].after(move_.chord + s);
   return task_.axes.positions(words, move_.modal).value_or(even);
 }
@@ -29,24 +44,24 @@ Vector3 NominalWay::tip_at(double s) const {
 }
 
 double NominalWay::distance_mm(const Vector3& tip_mm, double s) const {
-  if (!is_arc()) return apart_mm(tip_mm, start_mm_, 0.0, 1.0);
-  const double off_mm = from_arc_mm(tip_mm, s);
-  if (s != arc_begins() && s != arc_ends()) return off_mm;
+  if (!is_curve_) return apart_mm(tip_mm, start_mm_, 0.0, 1.0);
+  const double off_mm = from_curve_mm(tip_mm, s);
+  if (s != begins() && s != ends()) return off_mm;
   // A whole turn ends where it begins.
-  double other = s == arc_begins() ? arc_ends() : arc_begins();
-  return std::min(off_mm, from_arc_mm(tip_mm, other));
+  double other = s == begins() ? ends() : begins();
+  return std::min(off_mm, from_curve_mm(tip_mm, other));
 }
 
 double NominalWay::across_mm(const Vector3& a, const Vector3& b) const {
   return apart_mm(a, b, -INFINITY, INFINITY);
 }
 
-/// Gauss-Newton along the arc. Its last step goes along the tangent, whose distance from the arc is
-/// of second order in it.
-double NominalWay::from_arc_mm(const Vector3& tip_mm, double& s) const {
+/// Gauss-Newton along the curve. Its last step goes along the tangent, whose distance from the arc
+/// is of second order in it.
+double NominalWay::from_curve_mm(const Vector3& tip_mm, double& s) const {
   constexpr double ahead = 1e-4, settled_mm = 1e-5;
   constexpr int most_steps = 20;
-  const double first = arc_begins(), last = arc_ends();
+  const double first = begins(), last = ends();
   double off_mm = 0.0;
   for (int step = 0; step < most_steps; ++step) {
     const Vector3 here = tip_at(s), there = tip_at(s + ahead);

@@ -347,7 +347,9 @@ std::string_view template_of(ReasonCode code) {
        "between its blocks the tip leaves the line by {between:um:two} µm<: split them with "
        "[program] tolerance_um = {pieces:um:.0f}>"},
       {not_corrected,
-       "{not_corrected:um:two} µm of this are errors found that no program can correct"},
+       "mend on the machine the errors found that no program can correct: {not_corrected:um:two} "
+       "µm "
+       "of this"},
       {more_rows_measured,
        "U is {left:um:two} µm; about {times::.2g} times the {rows::.0f} rows would be enough, as U "
        "falls with the square root of their number"},

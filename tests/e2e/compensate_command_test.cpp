@@ -302,7 +302,10 @@ TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfRandomPrograms) {
     const CommandStreams done = compensate("p.nc", maker.next(25),
                                            "--machine m.toml --errors " + five_axis_data +
                                                "trunnion_ac_errors.toml -o out.nc --force");
-    if (done.err.find("if the control skips line") != std::string::npos) continue;
+    // A program may be refused for its skipped blocks, or for turns whose middle comes out worse.
+    if (contains(done.err, "if the control skips line") ||
+        contains(done.err, "Split its blocks (--tolerance-um)"))
+      continue;
     ++compared;
     ASSERT_EQ(done.exit_code, 0) << done.err << pasted(read_text(folder_ / "p.nc"));
     const auto source = calls(folder_, "p.nc");

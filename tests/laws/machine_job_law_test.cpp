@@ -162,7 +162,7 @@ TEST(MachineJobLaw, AWrongLengthOfTheProbeIsAReservation) {
     job.data = {measure_balls({machine, truth}, plan, sigma_mm, draw)};
     job.program =
         MachineJobProgram{"touch.nc", touching_program({machine, none}, draw, plan.tilt), {}};
-    job.tolerance_mm = 0.05;
+    job.program->options.tolerance_mm = job.tolerance_mm = 0.05;
     const auto asks = [](const MachineJobResult& result) {
       return std::ranges::any_of(result.verdict.reservations, [](const Reason& reason) {
         return reason.code == ReasonCode::check_found &&

@@ -148,6 +148,44 @@ TEST(VirtualCutLaw, ACompensatedProgramCutsWhatTheMachineWithoutErrorsDoes) {
   });
 }
 
+// Axes that turn by more than 20°, and rotary axes alone, mean the way of the machine: a ring is
+// cut as a ring, whose chord would be a point.
+TEST(VirtualCutLaw, AxesThatTurnFarOrAloneKeepTheirOwnWay) {
+  each_case(
+      [](CutCase one) {
+        if (one.machine.mode == ProgramMode::tip) return;
+        one.text = first_lines_of(one.text, 2);
+        std::string far = "G1", alone = "G1";
+        for (const MachineAxis& axis : one.machine.axes) {
+          const char letter = letter_of(axis.name);
+          if (is_rotary(axis.name))
+            alone += fmt::format(" {}{:.3f}", letter, one.draw.between(-60, 60));
+          far += fmt::format(" {}{:.3f}", letter, one.draw.between(-60.0, 60.0));
+        }
+        one.text += far + '\n' + alone + '\n';
+        CompensationOptions options = fine();
+        for (const double tolerance_mm : {0.0, 0.01}) {
+          SCOPED_TRACE(tolerance_mm);
+          if (tolerance_mm > 0.0) options.tolerance_mm = tolerance_mm;
+          const auto result =
+              compensate_program(MachineModel(one.machine, one.errors), one.text, "p.nc", options);
+          ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
+          const vm::Cut before = one.cut(one.text, one.errors),
+                        after = one.cut(result.text, one.errors, 0.3, 0.02);
+          // The other machine looks at points, and what is stated is right to a hundredth.
+          EXPECT_NEAR(before.off_between.value, result.between_before.value,
+                      0.02 * before.off_between.value);
+          EXPECT_NEAR(after.off_between.value, result.between_after.value,
+                      0.02 * after.off_between.value);
+          EXPECT_LT(before.off_between.value, 3.0) << "by errors alone, and no chord";
+          if (tolerance_mm > 0.0) {
+            EXPECT_LT(after.off_between.value, 1.01 * tolerance_mm);
+          }
+        }
+      },
+      1);
+}
+
 TEST(VirtualCutLaw, PiecesStayWithinTheTolerance) {
   each_case([](CutCase one) {
     // Without G1 in every block nothing but its place tells a block from its pieces.

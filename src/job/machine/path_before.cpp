@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "compensate/largest_on_way.hpp"
+#include "compensate/nominal_way.hpp"
 #include "job/machine/machine_job_steps.hpp"
 #include "machine/algebra.hpp"
 
@@ -12,7 +13,8 @@ using Eigen::Vector3d;
 
 constexpr double even_rad = 20.0 * rad_per_deg;  // of rotary axes, over which a way is even
 
-/// A block, or a chord of an arc: by the parabola through its ends and the middle of its arc.
+/// A block, a curve on which axes go evenly, or a chord of an arc: by the parabola through its ends
+/// and the middle of its arc.
 class WayBefore {
  public:
   WayBefore(const MachineModel& model, const ProgramEnd& from, const ProgramEnd& to,
@@ -23,21 +25,22 @@ class WayBefore {
         part_(part),
         bed_from_program_(rigid::motion(to.setting.bed_from_program)),
         start_(nominal_tip(from.commanded)),
-        line_(nominal_tip(to.commanded) - start_) {
+        line_(nominal_tip(to.commanded) - start_),
+        by_axes_(!to.middle && !to.along_tip && means_own_way(from.commanded, to.commanded)) {
     if (to.middle) bow_ = 4.0 * (nominal_tip(*to.middle) - start_ - 0.5 * line_);
   }
 
   double off_mm(double s) const {
-    const Vector3d point = start_ + s * line_ + s * (1.0 - s) * bow_;
-    AxisPositions axes;
-    for (std::size_t k = 0; k < axis_count; ++k)
-      axes[k] = std::lerp(from_.commanded[k], to_.commanded[k], s);
+    AxisPositions axes = mix(from_.commanded, to_.commanded, s);
+    const Vector3d point =
+        by_axes_ ? nominal_tip(axes) : Vector3d(start_ + s * line_ + s * (1.0 - s) * bow_);
     if (to_.middle && s == 0.5) axes = *to_.middle;
     if (to_.along_tip)
       axes = axes_for_tip(model_, rigid::array(point), axes, to_.setting).value_or(axes);
     const Vector3d tip = rigid::eigen(model_.actual(axes, to_.setting).tip_mm);
     const Vector3d of_part = bed_from_program_.R.transpose() * part_.at(bed_from_program_ * point);
-    return to_.middle ? across_arc_mm(tip - of_part - point, s) : off_line_mm(tip - of_part);
+    if (!by_axes_ && !to_.middle) return off_line_mm(tip - of_part);
+    return across_mm(tip - of_part - point, tangent(s, point));
   }
 
   double largest_mm(double of_interest_mm) const {
@@ -61,8 +64,12 @@ class WayBefore {
     const double along = square > 0.0 ? std::clamp(off.dot(line_) / square, 0.0, 1.0) : 0.0;
     return (off - along * line_).norm();
   }
-  double across_arc_mm(const Vector3d& off, double s) const {
-    const Vector3d tangent = line_ + (1.0 - 2.0 * s) * bow_;
+  Vector3d tangent(double s, const Vector3d& point) const {
+    constexpr double ahead = 1e-4;
+    if (!by_axes_) return line_ + (1.0 - 2.0 * s) * bow_;
+    return nominal_tip(mix(from_.commanded, to_.commanded, s + ahead)) - point;
+  }
+  static double across_mm(const Vector3d& off, const Vector3d& tangent) {
     const double square = tangent.squaredNorm();
     return square > 0.0 ? (off - off.dot(tangent) / square * tangent).norm() : off.norm();
   }
@@ -72,6 +79,7 @@ class WayBefore {
   const RigidFit::Body& part_;
   rigid::Motion bed_from_program_;
   Vector3d start_, line_, bow_ = Vector3d::Zero();
+  bool by_axes_;
 };
 
 }  // namespace

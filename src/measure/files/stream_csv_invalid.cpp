@@ -63,7 +63,9 @@ std::string CsvInvalidRows::remedy(const std::string& file, const StreamReadOpti
     line.push_back((file == "-" ? "my" : std::filesystem::path(file).stem().string()) +
                    "_clean.csv");
   }
-  return fmt::format("{} no value: the command that excludes {}: {}", rows, them, shell_line(line));
+  const char* const again = file == "-" ? ", with the data sent again" : "";
+  return fmt::format("{} no value: the command that excludes {}{}: {}", rows, them, again,
+                     shell_line(line));
 }
 
 std::string csv_too_many_invalid(std::size_t invalid, std::size_t good) {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "simulate/machine/tool_in_part.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_machine {
 namespace {
@@ -33,7 +34,7 @@ double off_line_mm(const Vector3& point, const Vector3& from, const Vector3& to)
   return distance_mm(point, foot);
 }
 
-/// Of an arc.
+/// On an arc, or with axes that go evenly.
 Vector3 tip_on_way(const Machine& machine, const ControlMove& move, double share) {
   if (!move.along_tip)
     return tool_in_part(machine, {}, axes_on_way(machine, move, share), move.setting).tip_mm;
@@ -44,7 +45,8 @@ Vector3 tip_on_way(const Machine& machine, const ControlMove& move, double share
   return move.arc->put_on_arc(there, from, to, share);
 }
 
-constexpr std::size_t arc_parts = 64;
+constexpr double part_rad = 5.0 * rad_per_deg;
+constexpr std::size_t fewest_parts = 64;
 constexpr double beyond_any_mm = 1e9;
 
 /// What of a block is not a position: its words except those of axes and F (of which pieces under
@@ -132,30 +134,41 @@ class Pairing {
 
 NominalPath::NominalPath(const Machine& machine, const ControlMove& move)
     : machine_(&machine), move_(&move) {
-  if (!move.arc) {
+  double turn_rad = 0.0, travel_mm = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    travel_mm = std::fmax(travel_mm, std::fabs(move.to[k] - move.from[k]));
+    turn_rad = std::fmax(turn_rad, std::fabs(move.to[k + 3] - move.from[k + 3]));
+  }
+  const bool by_axes = !move.along_tip && turn_rad > (travel_mm < 1e-9 ? 0.0 : 20.0 * rad_per_deg);
+  if (!move.arc && !by_axes) {
     for (const AxisPositions& axes : {move.from, move.to})
       tips_mm_.push_back(tool_in_part(machine, {}, axes, move.setting).tip_mm);
     return;
   }
-  for (std::size_t i = 0; i <= arc_parts; ++i)
-    tips_mm_.push_back(tip_on_way(machine, move, static_cast<double>(i) / arc_parts));
+  const auto parts = std::max(fewest_parts, static_cast<std::size_t>(turn_rad / part_rad));
+  for (std::size_t i = 0; i <= parts; ++i)
+    tips_mm_.push_back(
+        tip_on_way(machine, move, static_cast<double>(i) / static_cast<double>(parts)));
 }
 
 double NominalPath::off_mm(const Vector3& tip_mm) const {
-  if (!move_->arc) return off_line_mm(tip_mm, tips_mm_.front(), tips_mm_.back());
+  if (tips_mm_.size() == 2) return off_line_mm(tip_mm, tips_mm_.front(), tips_mm_.back());
+  const std::size_t last = tips_mm_.size() - 1;
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < tips_mm_.size(); ++i)
     if (distance_mm(tip_mm, tips_mm_[i]) < distance_mm(tip_mm, tips_mm_[nearest])) nearest = i;
   // A whole turn begins where it ends.
-  const bool at_an_end = nearest == 0 || nearest == arc_parts;
-  return at_an_end ? std::fmin(off_beside_mm(tip_mm, 0), off_beside_mm(tip_mm, arc_parts))
+  const bool at_an_end = nearest == 0 || nearest == last;
+  return at_an_end ? std::fmin(off_beside_mm(tip_mm, 0), off_beside_mm(tip_mm, last))
                    : off_beside_mm(tip_mm, nearest);
 }
 
 /// The foot of the perpendicular lies next to the nearest point: thirds are cut off.
 double NominalPath::off_beside_mm(const Vector3& tip_mm, std::size_t nearest) const {
-  double low = static_cast<double>(nearest == 0 ? 0 : nearest - 1) / arc_parts,
-         high = static_cast<double>(std::min(nearest + 1, arc_parts)) / arc_parts;
+  const std::size_t last = tips_mm_.size() - 1;
+  const auto parts = static_cast<double>(last);
+  double low = static_cast<double>(nearest == 0 ? 0 : nearest - 1) / parts,
+         high = static_cast<double>(std::min(nearest + 1, last)) / parts;
   const auto off_at = [&](double share) {
     return distance_mm(tip_mm, tip_on_way(*machine_, *move_, share));
   };

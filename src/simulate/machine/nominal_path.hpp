@@ -9,7 +9,8 @@
 namespace trueaxis::virtual_machine {
 
 /// What the tip should cut in a move of the nominal program. For a straight block it is the line
-/// between the tips at its ends, for an arc the way of the nominal machine's tip.
+/// between the tips at its ends, for an arc the way of the nominal machine's tip. If axes go
+/// evenly, but only rotary ones or one by more than 20°, it is that way too.
 class NominalPath {
  public:
   NominalPath() = default;
@@ -21,7 +22,7 @@ class NominalPath {
 
   const Machine* machine_ = nullptr;
   const ControlMove* move_ = nullptr;
-  std::vector<Vector3> tips_mm_;  ///< even; of a straight block its ends
+  std::vector<Vector3> tips_mm_;  ///< even; of a straight line its ends
 };
 
 /// Where a move begins in what it goes evenly in: X Y Z of the axes, or the tip.

@@ -32,11 +32,13 @@ std::vector<std::string> paths(TomlTable& table, const char* key, const std::str
     if (name.empty()) table.complain(key, "holds an empty name: name a file");
     name = path_next_to(job, name);
   }
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), list[i]) !=
-        list.begin() + static_cast<std::ptrdiff_t>(i))
-      table.complain(key, "names " + list[i] + " twice");
-  return list;
+  std::vector<std::string> once;
+  for (const std::string& name : list)
+    if (std::ranges::find(once, name) == once.end())
+      once.push_back(name);
+    else
+      table.complain(key, "names " + name + " twice");
+  return once;
 }
 
 void read_machine(TomlTable table, Said& said, const std::string& job) {
