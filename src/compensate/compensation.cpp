@@ -14,6 +14,7 @@
 #include "compensate/block_end.hpp"
 #include "machine/held_axes.hpp"
 #include "nc/mark.hpp"
+#include "nc/timed_turns.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -148,6 +149,10 @@ class NewProgram {
     return out;
   }
 
+  /// Lines of blocks that turn rotary axes alone and that also move X Y Z in the new program: F is
+  /// °/min before and mm/min then.
+  const std::vector<std::uint32_t>& turns() const { return turns_; }
+
  private:
   Tally compensate() {
     std::ranges::fill(worse_, 0);
@@ -249,6 +254,8 @@ class NewProgram {
     std::vector<nc::NewPosition> positions;
     positions.reserve(moves_.size());
     for (const auto& run : pieces_) positions.insert(positions.end(), run.begin(), run.end());
+    find_turns(positions);
+    if (!turns_.empty()) return;
     nc::Written written = nc::write_program(task_.program, positions, task_.write);
     const bool changed = written.rewritten + written.inserted > 0;
     out.text = changed ? nc::marked(std::move(written.text)) : std::move(written.text);
@@ -256,9 +263,36 @@ class NewProgram {
     out.blocks_inserted = written.inserted;
   }
 
+  void find_turns(std::span<const nc::NewPosition> positions) {
+    const auto moves_tip = [](const nc::AxisValues& a, const nc::AxisValues& b) {
+      constexpr double still_mm = 1e-9;
+      return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > still_mm;
+    };
+    const auto written = [&](const nc::NewPosition& position) {
+      return nc::as_written(moves_[position.move], position.words, task_.write);
+    };
+    for (std::size_t n = 1; n < positions.size(); ++n) {
+      const std::size_t i = positions[n].move;
+      const nc::ModalState& modal = moves_[i].modal;
+      if (i == 0 || modal.motion != nc::Motion::feed || moves_[i].cycle ||
+          modal.feed_mode == nc::FeedMode::inverse_time ||
+          modal.work_offset != moves_[i - 1].modal.work_offset ||
+          moves_tip(moves_[i].words, moves_[i - 1].words) ||
+          !moves_tip(written(positions[n]), written(positions[n - 1])) ||
+          !turns(moves_[i - 1].words, moves_[i].words))
+        continue;
+      if (turns_.empty() || turns_.back() != moves_[i].line) turns_.push_back(moves_[i].line);
+    }
+  }
+
+  static bool turns(const nc::AxisValues& from, const nc::AxisValues& to) {
+    return !std::equal(from.begin() + 3, from.end(), to.begin() + 3);
+  }
+
   const CompensationTask& task_;
   const std::vector<nc::Move>& moves_;
   RotaryHold hold_;
+  std::vector<std::uint32_t> turns_;
   std::vector<char> worse_;  ///< by move: it came out worse
   std::vector<BlockEnd> ends_;
   std::vector<std::vector<nc::NewPosition>> pieces_;  ///< by run
@@ -279,6 +313,13 @@ namespace {
 LargestInProgram larger(const LargestInProgram& a, const LargestInProgram& b) {
   if (a.line == 0 || b.line == 0) return a.line == 0 ? b : a;
   return b.value > a.value || (b.value == a.value && b.line < a.line) ? b : a;
+}
+
+std::string timed(const std::vector<std::uint32_t>& lines) {
+  return "G93 has the time of " + counted(lines.size(), "block that turns", "blocks that turn") +
+         " rotary axes alone (first in line " +
+         std::to_string(*std::ranges::min_element(lines) + 1) +
+         "): F is °/min there, and would be mm/min with X Y Z";
 }
 
 }  // namespace
@@ -303,11 +344,21 @@ ProgramCompensation compensate_program(const MachineModel& model, std::string te
         "the program was compensated already, and its errors would be "
         "subtracted twice: compensate the program that it was made from, by all errors together"}});
   const ProgramAxes axes(model.machine());
-  const nc::Program program =
-      nc::read_program(std::move(text), file, axes.read_options(options.arc_tolerance_mm));
+  const nc::ReadOptions read = axes.read_options(options.arc_tolerance_mm);
+  nc::Program program = nc::read_program(std::move(text), file, read);
   expect_length_axis(program, axes);
-  const CompensationTask task(model, program, options, axes);
-  return NewProgram(task).make();
+  std::vector<std::uint32_t> turned;
+  while (true) {
+    const CompensationTask task(model, program, options, axes);
+    NewProgram made(task);
+    ProgramCompensation out = made.make();
+    if (made.turns().empty()) {
+      if (!turned.empty()) out.remarks.push_back(timed(turned));
+      return out;
+    }
+    turned.insert(turned.end(), made.turns().begin(), made.turns().end());
+    program = nc::read_program(nc::with_timed_turns(program, made.turns()), file, read);
+  }
 }
 
 }  // namespace trueaxis

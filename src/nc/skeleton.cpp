@@ -11,8 +11,14 @@
 namespace trueaxis::nc {
 namespace {
 
-/// A program without its axis words, the blanks before them, the lines that hold nothing else, and
-/// the mark.
+/// What compensation may change: axis words, and F with its mode where only rotary axes turn.
+bool may_change(const Word& word) {
+  return axis_of(word.letter) < axis_count || word.letter == 'F' ||
+         (word.letter == 'G' && (word.number == 93.0 || word.number == 94.0));
+}
+
+/// A program without the words that may change, the blanks before them, the lines that hold nothing
+/// else, and the mark.
 std::string skeleton_of(std::string_view program) {
   const std::string text = without_mark(std::string(program));
   std::vector<Diagnostic> ignored;
@@ -24,7 +30,7 @@ std::string skeleton_of(std::string_view program) {
     bool axes = false;
     for (std::uint32_t i = 0; i < line.word_count; ++i) {
       const Word& word = lexed.words[line.first_word + i];
-      if (axis_of(word.letter) == axis_count) continue;
+      if (!may_change(word)) continue;
       out.append(text, copied, word.letter_at - copied);
       while (out.size() > begin && is_blank(out.back())) out.pop_back();
       copied = word.end;

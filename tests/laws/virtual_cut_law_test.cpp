@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "simulate/machine/cut.hpp"
 #include "support/program_case.hpp"
@@ -181,6 +182,40 @@ TEST(VirtualCutLaw, AxesThatTurnFarOrAloneKeepTheirOwnWay) {
           if (tolerance_mm > 0.0) {
             EXPECT_LT(after.off_between.value, 1.01 * tolerance_mm);
           }
+        }
+      },
+      1);
+}
+
+// F of a turn is °/min, and mm/min once the correction moves X Y Z: under G93 all pieces together
+// take the time of before. Six digits of each F count.
+TEST(VirtualCutLaw, ATurnTakesAsLongAsBefore) {
+  each_case(
+      [](CutCase one) {
+        if (one.machine.rotary_count() == 0) return;
+        one.text = first_lines_of(one.text, 2) + "G1";
+        double square = 0.0;
+        const std::vector<AxisPositions> words = words_of(one.text);
+        for (const MachineAxis& axis : one.machine.axes) {
+          if (!is_rotary(axis.name)) continue;
+          const double to_deg = std::round(one.draw.between(-60.0, 60.0)),
+                       from_deg = words.back()[index_of(axis.name)] / rad_per_deg;
+          one.text += fmt::format(" {}{:.0f}", letter_of(axis.name), to_deg);
+          square += std::pow(to_deg - from_deg, 2);
+        }
+        one.text += " F250\n";
+        CompensationOptions options = fine();
+        for (const bool in_pieces : {false, true}) {
+          if (in_pieces) options.tolerance_mm = 0.01;
+          const auto result =
+              compensate_program(MachineModel(one.machine, one.errors), one.text, "p.nc", options);
+          ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
+          ASSERT_EQ(result.remarks.size(), 1u) << result.text;
+          std::istringstream turn(result.text.substr(result.text.find("G93")));
+          double time_min = 0.0;
+          for (std::string line; std::getline(turn, line);)
+            time_min += 1.0 / std::stod(line.substr(line.find('F') + 1));
+          EXPECT_NEAR(time_min, std::sqrt(square) / 250.0, 6e-6 * time_min) << result.text;
         }
       },
       1);

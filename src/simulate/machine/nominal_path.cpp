@@ -49,12 +49,13 @@ constexpr double part_rad = 5.0 * rad_per_deg;
 constexpr std::size_t fewest_parts = 64;
 constexpr double beyond_any_mm = 1e9;
 
-/// What of a block is not a position: its words except those of axes and F (of which pieces under
-/// G93 have their own), with G1 for an arc. Empty for a line of axis words.
+/// What of a block is not a position: its words except those of axes, F and its mode (a turn may
+/// have its time instead), with G1 for an arc. Empty for a line of axis words.
 std::string other_words(const BlockWords& block) {
   std::string text;
   for (const double code : block.g)
-    text += fmt::format("G{} ", code == 2.0 || code == 3.0 ? 1.0 : code);
+    if (code != 93.0 && code != 94.0)
+      text += fmt::format("G{} ", code == 2.0 || code == 3.0 ? 1.0 : code);
   for (const double code : block.m) text += fmt::format("M{} ", code);
   for (const auto& [letter, value] : block.of_letter)
     if (std::string_view("XYZABCFIJKR").find(letter) == std::string_view::npos)
