@@ -70,15 +70,19 @@ Json remainders_array(const std::vector<Remainder>& list) {
   });
 }
 
+/// A face has a direction alone.
 Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) {
+  Json json{{"slope_x", with_unit(target.axis.axis.slope_x, "1")},
+            {"slope_y", with_unit(target.axis.axis.slope_y, "1")},
+            {"u_slope", with_unit(target.axis.u_slope(), "1")},
+            {"remainders", remainders_array(target.remainders)}};
+  if (surface.kind == TargetKind::face) return json;
   const auto [x, y] = target.axis.axis.at(surface.z_start_mm);
-  return {{"x_at_start", with_unit(x, "mm")},
-          {"y_at_start", with_unit(y, "mm")},
-          {"u_at_start", with_unit(target.axis.u_at(surface.z_start_mm), "mm")},
-          {"u_at_end", with_unit(target.axis.u_at(surface.z_end_mm), "mm")},
-          {"slope_x", with_unit(target.axis.axis.slope_x, "1")},
-          {"slope_y", with_unit(target.axis.axis.slope_y, "1")},
-          {"remainders", remainders_array(target.remainders)}};
+  json["x_at_start"] = with_unit(x, "mm");
+  json["y_at_start"] = with_unit(y, "mm");
+  json["u_at_start"] = with_unit(target.axis.u_at(surface.z_start_mm), "mm");
+  json["u_at_end"] = with_unit(target.axis.u_at(surface.z_end_mm), "mm");
+  return json;
 }
 
 /// The datum system of the target, and what its axis leaves at the references.

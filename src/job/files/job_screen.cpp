@@ -48,7 +48,7 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
     return text + seat_axis_screen(result, i) +
            (diagnosis ? unseen_screen(*diagnosis) + limit_screen(*diagnosis) : "");
   if (result.fits.size() == 1 && !result.correction) text += axis_screen(fit);
-  return text;
+  return text + (diagnosis ? unseen_screen(*diagnosis) : "");
 }
 
 std::string tool_screen(const ActuatorMargin& margin) {
