@@ -42,7 +42,7 @@ std::string_view template_of(ReasonCode code) {
        "{@axes_apart}, <{offset_left:um:one} µm and >{tilt_left:mrad:.2g} mrad if {parts:, or "
        "}: {remedies:, or }"},
       {axes_apart,
-       "the axes of {file} and {file2} are <{offset:um:one} µm and >{tilt:mrad:.2g} mrad apart "
+       "the axes of {name} and {name2} are <{offset:um:one} µm and >{tilt:mrad:.2g} mrad apart "
        "(U = <{U_offset:um:.2g} µm and >{tilt.U:mrad:.2g} mrad)"},
       {axes_of_no_part,
        "{@axes_apart}, farther than surfaces of one part can be, and no sign, unit, diameter or "

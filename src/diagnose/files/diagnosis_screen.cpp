@@ -95,9 +95,9 @@ std::string unseen_screen(const Diagnosis& d) {
                                          : fmt::format("{:.2g} {}", shown.value, shown.unit)) +
                     " of " + (effect ? plain_name(*effect) : n.effect));
   }
-  return sizes.empty() ? ""
-                       : line("hidden ",
-                              fmt::format("{} would move the axis by U", fmt::join(sizes, " or ")));
+  return sizes.empty()
+             ? ""
+             : line("hidden ", fmt::format("{} moves the axis by U", fmt::join(sizes, " or ")));
 }
 
 std::string excluded_screen(const Diagnosis& d) {

@@ -18,7 +18,7 @@ double rms_shown_mm(const Diagnosis& diagnosis);
 /// The part of it about what was seen, at most `most` causes.
 std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);
 
-/// "hidden 2.2 ms of probe latency … would move the axis by U, and …": what no size of is seen in
+/// "hidden 2.2 ms of probe latency … moves the axis by U, and …": what no size of is seen in
 /// these readings, by how much of it moves the axis by as much as U; empty: nothing, or of a plane.
 std::string unseen_screen(const Diagnosis& diagnosis);
 

@@ -48,7 +48,7 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
     return text + seat_axis_screen(result, i) +
            (diagnosis ? unseen_screen(*diagnosis) + limit_screen(*diagnosis) : "");
   if (result.fits.size() == 1 && !result.correction) text += axis_screen(fit);
-  return text + (diagnosis ? unseen_screen(*diagnosis) : "");
+  return text;
 }
 
 std::string tool_screen(const ActuatorMargin& margin) {
@@ -60,6 +60,14 @@ std::string tool_screen(const ActuatorMargin& margin) {
                                                              ? "less than " + um(least_mm)
                                                              : um(margin.following_mm))
                          : "the actuator cannot follow: " + words_of(margin.breaks, "; "));
+}
+
+/// What the readings of a cut's first reference that hides something do not show.
+std::string hidden_screen(const JobResult& result) {
+  std::string text;
+  for (std::size_t i = 0; result.job.target && text.empty() && i < result.diagnoses.size(); ++i)
+    if (result.diagnoses[i]) text = unseen_screen(*result.diagnoses[i]);
+  return text;
 }
 
 /// "seat: "; nothing of a reference without a name.
@@ -118,6 +126,7 @@ std::string job_screen(const JobResult& result) {
   for (const Reason& reservation : result.verdict.reservations)
     text += "but    " + words_of(reservation, result) + "\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
+  text += hidden_screen(result);
   const std::string apart = result.job.target ? "" : seats_apart_screen(result);
   text += apart;
   for (const Disagreement& d : result.agreement.disagreements)
