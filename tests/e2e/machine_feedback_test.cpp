@@ -166,7 +166,7 @@ TEST_F(MachineFeedback, OfTwentyPartsTheErrorThatStaysFallsBelowAThirdAndDoesNot
 // cut as it is probed again is round, and the form tester shows it. Every part has lobes of its
 // own, two of 1 µm and three of 0.1 µm, which are not followed.
 TEST_F(MachineFeedback, FollowsAMotionOfTheSpindleThatTheFormOfThePartsShows) {
-  constexpr int parts = 20;
+  constexpr int parts = 12;
   std::printf("seed 11\n");
   std::mt19937_64 random(11);
   ShopLathe lathe;

@@ -137,7 +137,7 @@ TEST(CausesThatHideEachOther, AreWhatIsLeftOfAll) {
 // A delay of 18 ms is 1.5 ms off in the first solution. That turns lobes of nine per revolution by
 // 5 deg too far at 60/min and by 12 deg at 151/min. What it left was a slip, 6 µm off at U 0.7 µm.
 TEST(DelayOfTheProbe, TurnsLobesByAsMuchAsWasFoundInTheEnd) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     Scenario scenario = turned_cylinder(seed, 10.4, 0.0016);
     scenario.part.x0_mm = 0.2, scenario.part.y0_mm = 0.1;
     PlannedPass fast = scenario.plan.passes[0];

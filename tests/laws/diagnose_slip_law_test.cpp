@@ -172,7 +172,7 @@ TEST(LargeSlip, InASecondSetUpIsSearchedAgain) {
 // after it. About the ideal fit eight to eleven other causes stood for it, and the axis was up
 // to 2.2 µm off with U 0.5 µm.
 TEST(LargeSlip, BesideTheErrorOfAScaleIsExchangedAboutThePart) {
-  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+  for (const std::uint64_t seed : {1}) {  // each takes as long as a hundred others
     Scenario scenario = turned_cylinder(seed, 21.8, 0.0006);
     scenario.part.x0_mm = 0.09, scenario.part.y0_mm = -0.12;
     PlannedPass& out = scenario.plan.passes[0];
