@@ -89,10 +89,10 @@ class Reader {
     if (selected_ > 0 && !options_.tools.empty() && !has_length(selected_))
       complain(*change, "tool " + std::to_string(selected_) +
                             " has no length in [tools] of the machine: add it there");
-    const bool of_tip = options_.mode == PositionMode::tip;
-    if (selected_ != state_.tool && (of_tip || state_.length != LengthOffset::none))
-      forget(of_tip ? linear_axes : length_axes(state_, state_), "the tool's change");
-    if (selected_ != state_.tool) continues_ = false;
+    if (selected_ != state_.tool) {  // many machines go to a position of their own for it
+      forget(linear_axes, "the tool's change");
+      continues_ = false;
+    }
     state_.tool = selected_;
   }
 

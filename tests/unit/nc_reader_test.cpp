@@ -94,17 +94,22 @@ TEST(NcReader, AxisWordsBeforeAMotionAndUnknownStart) {
   EXPECT_EQ(places("G43 H1\nT3 M6\nG43 H1\nG43 H23\n", options), "1:5 3:5");
 }
 
-// Where X Y Z are of the tip, another tool has it elsewhere: an axis that is not named would stay.
-TEST(NcReader, AnotherToolMovesTheTip) {
+// Another tool has its tip elsewhere, and many machines change it at a position of their own: the
+// new program took the axes there in a rapid move at the Z of before.
+TEST(NcReader, AfterAnotherToolXYZAreNotKnown) {
   ReadOptions options = xyzac();
-  options.mode = PositionMode::tip;
-  EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT1 M6\nX2\n", options), "");
-  EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nX2\n", options), "4:1");
+  for (const PositionMode mode : {PositionMode::axes, PositionMode::tip}) {
+    options.mode = mode;
+    EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT1 M6\nX2\n", options), "");
+    EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nX2\n", options), "4:1");
+    EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nX2 Y2 Z2\n", options), "");
+  }
 }
 
 TEST(NcReader, WordsInForceInMmAndRad) {
   const Program program = read_program(
-      "G0 X1 Y2 Z3 A10 C-20\nG20 G1 X.5 F10\nN7 G93 C30 F2\nG21 T4 M6\nG43 H4 Z7\nG43.4 H4 X1 Y1 "
+      "G0 X1 Y2 Z3 A10 C-20\nG20 G1 X.5 F10\nN7 G93 C30 F2\nG21 T4 M6\nG43 H4 X12.7 Y2 Z7\nG43.4 "
+      "H4 X1 Y1 "
       "Z1\n"
       "G56 G0 X9 Y9 Z9 A9 C9\n",
       "p.nc", xyzac());
