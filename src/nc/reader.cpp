@@ -116,7 +116,6 @@ class Reader {
     const ModalState before = state_;
     before_ = before;
     for (const int code : block_.g_tenths) apply_g(state_, code);
-    if (before.cycle == 0 && state_.cycle != 0) cycle_.begin(words_[2]);
     if (const Word* feed = block_.word('F')) state_.feed = feed->number;
     if (state_.length != before.length)
       forget(length_axes(before, state_), "the tool's length was switched");
@@ -126,6 +125,7 @@ class Reader {
     } else if (block_.has_g(540 + 10 * state_.work_offset)) {
       check_work_offset();
     }
+    if (before.cycle == 0 && state_.cycle != 0) cycle_.begin(words_[2]);
     if (const Word* number = block_.word('H')) check_length_number(*number);
   }
 
@@ -137,11 +137,17 @@ class Reader {
   }
 
   void check_work_offset() {
-    if (options_.work_offsets[state_.work_offset]) return;
+    const bool in_cycle =
+        before_.cycle != 0 && state_.cycle != 0 &&
+        options_.zeros[before_.work_offset][2] != options_.zeros[state_.work_offset][2];
+    if (options_.work_offsets[state_.work_offset] && !in_cycle) return;
     const int code = 54 + state_.work_offset;
     for (const Word& word : words_of_line())
       if (word.letter == 'G' && word.number == code)
-        complain(word, "G" + std::to_string(code) + " is not in [workpiece] of the machine");
+        complain(word,
+                 "G" + std::to_string(code) +
+                     (in_cycle ? " moves the zero of Z within a canned cycle: write G80 before it"
+                               : " is not in [workpiece] of the machine"));
   }
 
   void check_length_number(const Word& word) {

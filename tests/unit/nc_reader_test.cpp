@@ -148,6 +148,29 @@ TEST(NcReader, AnotherWorkOffsetLeavesTheMachineWhereItIs) {
   EXPECT_EQ(third[5], 1.0 * rad_per_deg);
 }
 
+// The initial level is where the tool is, in words of the new offset: LinuxCNC goes to 53.
+TEST(NcReader, ACycleBeginsInTheWorkOffsetOfItsBlock) {
+  ReadOptions options = xyzac();
+  options.zeros[1][2] = -3.0;
+  const Program program =
+      read_program("G0 X1 Y2 Z50 A4 C5\nG55 G81 X7 Z-5 R2\nX8\n", "p.nc", options);
+  ASSERT_EQ(program.moves.size(), 9u);
+  EXPECT_EQ(program.moves[1].words[2], 53.0);
+  EXPECT_EQ(program.moves[4].words[2], 53.0);
+  EXPECT_EQ(program.moves[8].words[2], 53.0);
+}
+
+// The initial level is of the machine on one control and a word on another.
+TEST(NcReader, AWorkOffsetOfAnotherZWithinACycleIsRefused) {
+  ReadOptions options = xyzac();
+  options.zeros[1] = {10.0, 20.0, 0.0, 0.0, 0.0, 0.0};
+  options.zeros[2][2] = -3.0;
+  const std::string holes = "G0 X1 Y2 Z50 A4 C5\nG81 X7 Z-5 R2\n";
+  EXPECT_EQ(places(holes + "G55 X8\n", options), "");
+  EXPECT_EQ(places(holes + "G56 X8\nG54\n", options), "3:1 4:1");
+  EXPECT_EQ(places(holes + "G80 G56\nG81 X8 Z-5 R2\n", options), "");
+}
+
 // Distances to a point on the way home are not positions; what follows is read under G90.
 TEST(NcReader, GoesHomeUnderG91) {
   for (const char* const home :
