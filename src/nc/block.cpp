@@ -106,6 +106,8 @@ class Sorter {
     static constexpr std::string_view always = "NGMFSTHOXYZABCUVW";
     if (always.find(word.letter) != std::string_view::npos) return;
     const bool of_m = !block_.m.empty();
+    if (word.letter == 'P' && block_.has_m(99))
+      return complain(word, "P of M99 " + std::string(jump));
     const bool of_path = block_.has_g(640) || block_.has_g(610);
     const std::string_view letters = of_m                    ? "PQLRD"
                                      : of_path               ? "PQ"
