@@ -145,6 +145,21 @@ bool Block::has_g(int tenths) const {
 }
 bool Block::has_m(int m_code) const { return std::ranges::find(m, m_code) != m.end(); }
 
+const Word* Block::centre_word() const {
+  for (const char letter : {'I', 'J', 'K'})
+    if (word(letter) != nullptr) return word(letter);
+  return nullptr;
+}
+
+const Word& Block::first_axis_word() const {
+  const Word* first = nullptr;
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    const Word* one = has(named, k) ? word(axis_letters[k]) : nullptr;
+    if (one != nullptr && (first == nullptr || one < first)) first = one;
+  }
+  return *first;
+}
+
 void sort_words(std::span<const Word> words, const BlockRules& rules, Block& block,
                 std::vector<WordTrouble>& troubles) {
   Sorter(rules, block, troubles).sort(words);
