@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -223,16 +224,18 @@ class NewProgram {
   }
 
   void state_skipped(std::vector<std::string>& remarks) const {
-    std::vector<std::uint32_t> lines;
+    std::set<std::size_t> lines(task_.program.skippable_states.begin(),
+                                task_.program.skippable_states.end());
     for (const nc::Move& move : moves_)
-      if (task_.program.lines[move.line].skip != 0 && (lines.empty() || lines.back() != move.line))
-        lines.push_back(move.line);
+      if (task_.program.lines[move.line].skip != 0) lines.insert(move.line);
     if (lines.empty()) return;
-    remarks.push_back("run the new program with block skip off, as " +
-                      counted(lines.size(), "block that begins with '/' moves axes",
-                              "blocks that begin with '/' move axes") +
-                      " (first in line " + std::to_string(lines.front() + 1) +
-                      "): TrueAxis assumes that the control carries them out");
+    remarks.push_back(
+        "run the new program with block skip off, as " +
+        counted(lines.size(),
+                "block that begins with '/' moves axes or changes what positions mean",
+                "blocks that begin with '/' move axes or change what positions mean") +
+        " (first in line " + std::to_string(*lines.begin() + 1) +
+        "): TrueAxis assumes that the control carries them out");
   }
 
   void keep_ends(ProgramCompensation& out) const {

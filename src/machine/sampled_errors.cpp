@@ -99,6 +99,13 @@ std::vector<double> positions_of(const ErrorModel& errors, const MachineAxis& ax
   return needs.positions;
 }
 
+/// E about the pivot r becomes E about the origin: its translation becomes that of Tr(r) E Tr(−r).
+void about_origin(std::array<double, 6>& e, const Vector3& pivot_mm) {
+  const Eigen::Vector3d r(pivot_mm[0], pivot_mm[1], pivot_mm[2]);
+  const Eigen::Vector3d more = r - rigid::exponential({e[3], e[4], e[5]}) * r;
+  for (std::size_t i = 0; i < 3; ++i) e[i] += more[static_cast<Eigen::Index>(i)];
+}
+
 /// The translation and rotation vector of E⁻¹ for E = Tr(t) exp(r).
 void invert(std::array<double, 6>& e) {
   const Eigen::Vector3d t(e[0], e[1], e[2]), r(e[3], e[4], e[5]);
@@ -167,6 +174,7 @@ std::vector<SampledErrors> sample_components(const Machine& machine, const Error
       axes[k] = position;
       std::array<double, 6> e{};
       for (std::size_t d = 0; d < 6; ++d) e[d] = errors.value({true, d, k}, axes);
+      if (k < 3) about_origin(e, errors.reference_mm[k]);
       if (inverted) invert(e);
       for (std::size_t d = 0; d < 6; ++d) one.values[d].push_back(e[d]);
     }

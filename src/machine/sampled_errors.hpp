@@ -19,11 +19,11 @@ struct SampledErrors {
 };
 
 /// Every axis that has component errors, in the order X … C, with the sign asked for: where it is
-/// not the model's own, E of an axis of the workpiece is inverted at every position, exactly. The
-/// positions are those of the tables, and for anything that is not a table `points` over the limits
-/// of the axis. A rotary axis without limits has one turn, if its errors repeat every turn.
-/// Positions go as far as the errors are known. @throws InputError for an axis without either whose
-/// errors are not tables.
+/// not the model's own, E of an axis of the workpiece is inverted at every position, exactly. Such
+/// tables have no pivot: E of a linear axis is about the origin of M. The positions are those of
+/// the tables, and for anything that is not a table `points` over the limits of the axis. A rotary
+/// axis without limits has one turn, if its errors repeat every turn. Positions go as far as the
+/// errors are known. @throws InputError for an axis without either whose errors are not tables.
 std::vector<SampledErrors> sample_components(const Machine& machine, const ErrorModel& errors,
                                              ErrorSign sign, int points);
 

@@ -106,6 +106,8 @@ class Sorter {
     static constexpr std::string_view always = "NGMFSTHOXYZABCUVW";
     if (always.find(word.letter) != std::string_view::npos) return;
     const bool of_m = !block_.m.empty();
+    if (word.letter == 'P' && block_.has_m(99))
+      return complain(word, "P of M99 " + std::string(jump));
     const bool of_path = block_.has_g(640) || block_.has_g(610);
     const std::string_view letters = of_m                    ? "PQLRD"
                                      : of_path               ? "PQ"
@@ -142,6 +144,21 @@ bool Block::has_g(int tenths) const {
   return std::ranges::find(g_tenths, tenths) != g_tenths.end();
 }
 bool Block::has_m(int m_code) const { return std::ranges::find(m, m_code) != m.end(); }
+
+const Word* Block::centre_word() const {
+  for (const char letter : {'I', 'J', 'K'})
+    if (word(letter) != nullptr) return word(letter);
+  return nullptr;
+}
+
+const Word& Block::first_axis_word() const {
+  const Word* first = nullptr;
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    const Word* one = has(named, k) ? word(axis_letters[k]) : nullptr;
+    if (one != nullptr && (first == nullptr || one < first)) first = one;
+  }
+  return *first;
+}
 
 void sort_words(std::span<const Word> words, const BlockRules& rules, Block& block,
                 std::vector<WordTrouble>& troubles) {

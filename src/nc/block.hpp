@@ -28,6 +28,8 @@ struct Block {
   const Word* word(char letter) const { return by_letter[static_cast<std::size_t>(letter - 'A')]; }
   bool has_g(int tenths) const;
   bool has_m(int m_code) const;
+  const Word* centre_word() const;      ///< the first of I J K; null: none
+  const Word& first_axis_word() const;  ///< in the text; `named` is not empty
 };
 
 /// What a reader of one block must know: axes of the machine, whether arcs are allowed.

@@ -103,11 +103,11 @@ bool CycleWords::take(const Block& block, const ModalState& state,
   if (p != nullptr) dwell_ = static_cast<std::uint32_t>(p - of_program.data());
   if (state.cycle != 82) dwell_ = Move::no_dwell;
   if (r != nullptr) {
-    r_mm_ = length_mm(*r, state) + (state.incremental ? initial_mm_ : 0.0);
+    r_mm_ = length_mm(*r, state);
     decimals_ = r->decimals;
   }
-  if (z != nullptr)
-    bottom_mm_ = length_mm(*z, state) + (state.incremental ? r_mm_.value_or(0.0) : 0.0);
+  if (z != nullptr) z_mm_ = length_mm(*z, state);
+  if (r != nullptr && z != nullptr) incremental_ = state.incremental;
   return block.named != 0 || r != nullptr;
 }
 
@@ -124,7 +124,9 @@ std::string CycleWords::trouble(const Block& block, const ModalState& state, con
         std::abs(rad_per_deg * block.word(axis_letters[k])->number - from[k]) > 1e-12)
       return "a canned cycle turns an axis: position it in a block before";
   if (!r_mm_) return "a canned cycle without R: say where its feed begins";
-  if (!bottom_mm_) return "a canned cycle without Z: say how deep it goes";
+  if (!z_mm_) return "a canned cycle without Z: say how deep it goes";
+  if (incremental_ != state.incremental)
+    return "G90 and G91 were exchanged within a canned cycle: give its R and Z in this block";
   if (block.word('K') != nullptr && block.word('L') != nullptr)
     return "a canned cycle has both K and L: keep one";
   const Word* const repeats = repeats_of(block);
@@ -146,8 +148,8 @@ Cycle CycleWords::cycle(const Block& block, const ModalState& state, const AxisV
     out.to_mm[k] = word_mm + (state.incremental ? from[k] : 0.0);
   }
   if (const Word* const repeats = repeats_of(block)) out.holes = static_cast<int>(repeats->number);
-  out.r_mm = *r_mm_;
-  out.bottom_mm = *bottom_mm_;
+  out.r_mm = *r_mm_ + (state.incremental ? initial_mm_ : 0.0);
+  out.bottom_mm = *z_mm_ + (state.incremental ? out.r_mm : 0.0);
   out.initial_mm = initial_mm_;
   out.to_r = state.back_to_r;
   out.peck_mm = peck_mm_;

@@ -39,8 +39,8 @@ struct CycleStep {
 /// @param trouble why it is not a cycle, and what to do
 std::vector<CycleStep> steps_of(const Cycle& cycle, std::string& trouble);
 
-/// The words of canned cycles, which stay in force from block to block until the cycle ends: R and
-/// Z as levels, Q, P.
+/// The words of canned cycles, which stay in force from block to block until the cycle ends: R,
+/// Z, Q, P.
 class CycleWords {
  public:
   /// A cycle begins where none was in force, with the tool at this Z.
@@ -60,7 +60,8 @@ class CycleWords {
 
  private:
   double initial_mm_ = 0.0, peck_mm_ = 0.0;
-  std::optional<double> r_mm_, bottom_mm_;
+  std::optional<double> r_mm_, z_mm_;  ///< as written
+  bool incremental_ = false;           ///< R and Z were written under G91
   std::uint8_t decimals_ = 0;
   std::uint32_t dwell_ = Move::no_dwell;
 };

@@ -66,6 +66,10 @@ std::string_view why_not_g(int g_tenths);
 /// The same of an M code that hides moves or blocks; "" for one that is read.
 std::string_view why_not_m(int m);
 
+/// Why M47 and M99 P are not read.
+inline constexpr std::string_view jump =
+    "goes on at another block: write the blocks in the order in which they are carried out";
+
 /// M codes that act after the block's move on every control: M0 M1 M2 M30 M60 M99.
 bool stops(int m);
 /// M codes that switch on before or with the block's move and may occur twice: M3 M4 M7 M8. (Off,

@@ -61,6 +61,8 @@ struct Program {
   std::array<AxisValues, 6> zeros{};  ///< ReadOptions::zeros
   AxisValues start_words{};           ///< ReadOptions::start; NaN where it is not known
   std::size_t blocks = 0;             ///< lines with a word
+  /// Lines that begin with '/' and put something into force by which later positions are others.
+  std::vector<std::size_t> skippable_states;
 
   std::string_view text_of(const Line& line) const {
     return std::string_view(text).substr(line.begin, line.end - line.begin);
@@ -71,11 +73,11 @@ struct Program {
 /// G0 G1 G4 G17-G21 G28 G30 G40 G43 G43.4 G49 G53-G59 G61 G64 G80-G83 G90 G91 G93-G95 G98 G99, G2
 /// and G3 with an arc tolerance. Canned cycles are moves along Z in G17. A position is known when
 /// every axis of the machine has a word in force; none has after G28, G30, G53 and the end of a
-/// program, and the axes that the tool's length moves must be given again after G43, G43.4 and G49.
-/// Under G91 only G28 and G30 may have axis words, which are left alone, and canned cycles. After
-/// another work offset the machine has not moved, so that the words in force differ by the
-/// difference of the zeros; a tip must then be given again. @throws InputError with everything that
-/// is not read, each with its line and column
+/// program. X Y Z must be given again after M6 with another tool, and the axes that the tool's
+/// length moves after G43, G43.4 and G49. Under G91 only G28 and G30 may have axis words, which are
+/// left alone, and canned cycles. After another work offset the machine has not moved, so that the
+/// words in force differ by the difference of the zeros; a tip must then be given again.
+/// @throws InputError with everything that is not read, each with its line and column
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 
 }  // namespace trueaxis::nc

@@ -39,9 +39,11 @@ class Reader {
                {options_.axes, options_.arc_tolerance_mm.has_value(), state_.cycle}, block_,
                troubles_);
     for (const WordTrouble& trouble : troubles_) complain(*trouble.word, trouble.why);
+    before_ = state_;
     take_program_number();
     change_tool();
     put_in_force();
+    if (line.skip != 0 && sets_positions()) program_.skippable_states.push_back(line_);
     take_axes();
     if (block_.has_m(2) || block_.has_m(30) || block_.has_m(99)) end_program();
   }
@@ -89,10 +91,10 @@ class Reader {
     if (selected_ > 0 && !options_.tools.empty() && !has_length(selected_))
       complain(*change, "tool " + std::to_string(selected_) +
                             " has no length in [tools] of the machine: add it there");
-    const bool of_tip = options_.mode == PositionMode::tip;
-    if (selected_ != state_.tool && (of_tip || state_.length != LengthOffset::none))
-      forget(of_tip ? linear_axes : length_axes(state_, state_), "the tool's change");
-    if (selected_ != state_.tool) continues_ = false;
+    if (selected_ != state_.tool) {  // many machines go to a position of their own for it
+      forget(linear_axes, "the tool's change");
+      continues_ = false;
+    }
     state_.tool = selected_;
   }
 
@@ -105,27 +107,25 @@ class Reader {
                   "T and M6 before this block, or give tools.0.length_mm, or tool.length_mm");
   }
 
-  /// Axes whose words move when the length in force changes between two states.
-  AxisSet length_axes(const ModalState& before, const ModalState& after) const {
+  /// Axes whose words move when the length in force changes.
+  AxisSet length_axes() const {
     if (options_.mode == PositionMode::tip) return 0;
-    if (before.length == LengthOffset::tip || after.length == LengthOffset::tip) return linear_axes;
+    if (before_.length == LengthOffset::tip || state_.length == LengthOffset::tip)
+      return linear_axes;
     return only(options_.length_axis);
   }
 
   void put_in_force() {
-    const ModalState before = state_;
-    before_ = before;
     for (const int code : block_.g_tenths) apply_g(state_, code);
-    if (before.cycle == 0 && state_.cycle != 0) cycle_.begin(words_[2]);
     if (const Word* feed = block_.word('F')) state_.feed = feed->number;
-    if (state_.length != before.length)
-      forget(length_axes(before, state_), "the tool's length was switched");
-    if (state_.work_offset != before.work_offset) {
-      shift_words(before.work_offset);
+    if (state_.length != before_.length) forget(length_axes(), "the tool's length was switched");
+    if (state_.work_offset != before_.work_offset) {
+      shift_words(before_.work_offset);
       check_work_offset();
     } else if (block_.has_g(540 + 10 * state_.work_offset)) {
       check_work_offset();
     }
+    if (before_.cycle == 0 && state_.cycle != 0) cycle_.begin(words_[2]);
     if (const Word* number = block_.word('H')) check_length_number(*number);
   }
 
@@ -137,11 +137,17 @@ class Reader {
   }
 
   void check_work_offset() {
-    if (options_.work_offsets[state_.work_offset]) return;
+    const bool in_cycle =
+        before_.cycle != 0 && state_.cycle != 0 &&
+        options_.zeros[before_.work_offset][2] != options_.zeros[state_.work_offset][2];
+    if (options_.work_offsets[state_.work_offset] && !in_cycle) return;
     const int code = 54 + state_.work_offset;
     for (const Word& word : words_of_line())
       if (word.letter == 'G' && word.number == code)
-        complain(word, "G" + std::to_string(code) + " is not in [workpiece] of the machine");
+        complain(word,
+                 "G" + std::to_string(code) +
+                     (in_cycle ? " moves the zero of Z within a canned cycle: write G80 before it"
+                               : " is not in [workpiece] of the machine"));
   }
 
   void check_length_number(const Word& word) {
@@ -165,9 +171,10 @@ class Reader {
     const bool away_now = block_.has_g(g_home) || block_.has_g(g_second_home) ||
                           block_.has_g(g_machine) || block_.has_g(g_dwell);
     if (state_.cycle != 0 && !away_now && !block_.refused) return take_cycle();
-    const bool circle = block_.named == 0 && is_arc(state_.motion) && centre_word() != nullptr;
+    const bool circle =
+        block_.named == 0 && is_arc(state_.motion) && block_.centre_word() != nullptr;
     if ((block_.named == 0 && !circle) || block_.has_g(g_dwell)) return check_dwell();
-    const Word& first = circle ? *centre_word() : first_axis_word();
+    const Word& first = circle ? *block_.centre_word() : block_.first_axis_word();
     const bool home = block_.has_g(g_home) || block_.has_g(g_second_home);
     const bool away = home || block_.has_g(g_machine);
     if (block_.refused) {
@@ -186,7 +193,7 @@ class Reader {
   void check_dwell() {
     if (block_.has_g(g_dwell)) {
       if ((block_.named & ~only(0)) != 0 || (block_.named != 0 && block_.word('P') != nullptr))
-        complain(first_axis_word(), "axis words with G4: give them a block of their own");
+        complain(block_.first_axis_word(), "axis words with G4: give them a block of their own");
       return;
     }
     if (block_.has_g(g_home) || block_.has_g(g_second_home)) leave();
@@ -229,7 +236,7 @@ class Reader {
   /// A block of a canned cycle: the moves that it makes.
   void take_cycle() {
     if (!cycle_.take(block_, state_, program_.words)) return refuse_idle_cycle_words();
-    const Word& first = block_.named != 0 ? first_axis_word() : *block_.word('R');
+    const Word& first = block_.named != 0 ? block_.first_axis_word() : *block_.word('R');
     const auto missing = static_cast<AxisSet>(options_.axes & ~known_ & ~(block_.named & 0b011));
     std::string trouble = missing == 0
                               ? cycle_.trouble(block_, state_, words_, options_.axes)
@@ -282,6 +289,13 @@ class Reader {
     return !same_feed || before != now || std::ranges::any_of(block_.m, starts) ||
            block_.word('S') != nullptr || block_.word('T') != nullptr ||
            block_.word('H') != nullptr;
+  }
+
+  /// That later positions are others without the block.
+  bool sets_positions() const {
+    ModalState before = before_, now = state_;
+    before.motion = now.motion, before.feed = now.feed = 0.0;
+    return before != now || block_.word('H') != nullptr;
   }
 
   /// The chords of an arc before its last, which is `made`.
@@ -340,20 +354,6 @@ class Reader {
     const Line& line = program_.lines[line_];
     return {program_.words.data() + line.first_word, line.word_count};
   }
-  const Word* centre_word() const {
-    for (const char letter : {'I', 'J', 'K'})
-      if (block_.word(letter) != nullptr) return block_.word(letter);
-    return nullptr;
-  }
-  const Word& first_axis_word() const {
-    const Word* first = nullptr;
-    for (std::size_t k = 0; k < axis_count; ++k) {
-      const Word* word = has(block_.named, k) ? block_.word(axis_letters[k]) : nullptr;
-      if (word != nullptr && (first == nullptr || word < first)) first = word;
-    }
-    return *first;
-  }
-
   Program& program_;
   const ReadOptions& options_;
   std::vector<Diagnostic>& wrong_;

@@ -206,9 +206,30 @@ TEST_F(CompensateCommand, SaysWhichBlocksMayBeSkipped) {
       of_trunnion + "-o out.nc --json r.json");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   for (const std::string& text : {done.out, result("r.json").at("remarks").dump()})
-    EXPECT_NE(text.find("with block skip off, as 2 blocks that begin with '/' move axes (first in"),
+    EXPECT_NE(text.find("with block skip off, as 2 blocks that begin with '/' move axes or"),
               std::string::npos)
         << text;
+}
+
+// Without these blocks every position after them is another.
+TEST_F(CompensateCommand, SaysWhichBlocksThatSetPositionsMayBeSkipped) {
+  const std::string start = "G43 H1\nG1 X0 Y0 Z0 A0 C0 F500\n", end = "G1 X1 Y2 Z0 A0 C0\n";
+  for (const auto& [block, said] : std::map<std::string, bool>{{"/G20", true},
+                                                               {"/T2 M6", true},
+                                                               {"/G43 H2", true},
+                                                               {"/G18", true},
+                                                               {"/G93 F2", true},
+                                                               {"/M8", false},
+                                                               {"/G0 F300", false},
+                                                               {"/G54 G21 G90", false}}) {
+    const std::string rest = block == "/G93 F2" ? "G1 X1 Y2 Z0 A0 C0 F2\n" : end;
+    const CommandStreams done =
+        compensate("p.nc", start + block + "\n" + rest, of_trunnion + "-o out.nc --force");
+    ASSERT_EQ(done.exit_code, 0) << block << done.err;
+    EXPECT_EQ(contains(done.out, "as 1 block that begins with '/' moves axes or"), said)
+        << block << '\n'
+        << done.out;
+  }
 }
 
 TEST_F(CompensateCommand, RanksTheErrors) {

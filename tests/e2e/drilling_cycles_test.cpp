@@ -15,7 +15,8 @@ const std::string holes =
     "C45\n"
     "N10 G99 G81 X10 Y10 Z-12.5 R2 F200 M8 (hole 1, Z R)\nN20 X20.\nN30 Y20. (hole 3)\n"
     "/N35 X25.\nN40 G98 G82 X30 Z-8 P0.5 L2\nN50 G83 X40 Z-20 Q5. R3\nN55 Y30 ; on\nN60 G80\n"
-    "G0 Z100 M9\nG0 B-20 C-70\nX0 Y0 Z10\nG99 G81 Z-5 R1\nG91 X5. K3\nX2. Y-3 Z-4 R-8\nG90 G80\n"
+    "G0 Z100 M9\nG0 B-20 C-70\nX0 Y0 Z10\nG99 G81 Z-5 R1\nG91 X5. Z-6 R-9 K3\nX2. Y-3 R-8\nX2. "
+    "Z-4\nG90 G80\n"
     "G0 X0 Y0 Z-3\nG98 G82 X3 Y3 Z-9 R1 P1000\nG0 Z50\nX10\nM30\n%\n";
 
 class DrillingCycles : public CommandTest {
@@ -143,6 +144,8 @@ TEST_F(DrillingCycles, RefusesWhatControlsDisagreeAbout) {
       {"G81 X1 Z-5 R2 P1", "P has no meaning"},
       {"G81 F100", "without a hole"},
       {"G84 X1 Z-5 R2", "canned cycle that is not read"},
+      {"G81 X1 Z-5 R2\nG91 X5", "G90 and G91 were exchanged within a canned cycle"},
+      {"G91 G81 X1 Z-5 R-98\nG90 X5 R2", "G90 and G91 were exchanged within a canned cycle"},
       {"G81 X1 Z-5 R2\nG80\nX5", "axis words before G0 or G1"}};
   for (const auto& [block, why] : wrong) {
     const CommandStreams done = compensate(start + block + "\n", 1);

@@ -155,6 +155,32 @@ TEST_F(ErrorsFiles, ATableOfAWholeTurnGoesRound) {
   }
 }
 
+// A format without a place for the pivot of angular errors: their translations are about the
+// origin. The same file was written with a pivot and without, and the tip was off by angle × pivot.
+TEST_F(ErrorsFiles, ATableIsAboutTheOriginWhereTheErrorsHaveAPivot) {
+  file("pivot.toml",
+       "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n"
+       "reference_mm.X = [100, -30, 50]\nreference_mm.Y = [0, 20, -60]\n"
+       "[[error]]\nname = \"EBX\"\nvalue_urad = 40\n"
+       "[[error]]\nname = \"ECX\"\nvalue_urad = -70\n"
+       "[[error]]\nname = \"EAY\"\nkind = \"table\"\n"
+       "at_mm = [-200, 0, 200]\nvalues_urad = [60, -20, 50]\n");
+  const std::vector<double> wanted = pose("pivot.toml");
+  for (const std::string format : {"isg", "etalon"})
+    for (const std::string sign : {"moving_part", "tool_minus_workpiece"}) {
+      const std::string name = sign + (format == "isg" ? ".csv" : ".etalon");
+      const CommandStreams done =
+          command("machine errors --machine " + machine_ + " --errors pivot.toml --format " +
+                  format + " --output-sign " + sign + " -o " + name);
+      ASSERT_EQ(done.exit_code, 0) << done.err;
+      const std::vector<double> row = pose(name + " --sign " + sign);
+      ASSERT_EQ(row.size(), wanted.size());
+      // Between the places of the table E is linear up to the square of its angle: 60 mm (60
+      // µrad)².
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(row[i], wanted[i], 1e-6) << name;
+    }
+}
+
 // A format without a place for it: the table goes as far as programs may, and the screen says so.
 TEST_F(ErrorsFiles, ATableStatesHowFarItsErrorsAreKnown) {
   file("known.toml",

@@ -114,8 +114,10 @@ class PlainControl {
   /// As LinuxCNC does: up to R first where it is below, above the hole, to R, down, back; G83 comes
   /// back to R after each peck and goes on 0.254 mm above.
   void drill() {
-    if (has('R')) r_ = number('R') + (incremental_ ? initial_ : 0.0);
-    if (has('Z')) z_ = number('Z') + (incremental_ ? r_ : 0.0);
+    if (has('R')) r_word_ = number('R');
+    if (has('Z')) z_word_ = number('Z');
+    r_ = r_word_ + (incremental_ ? initial_ : 0.0);
+    z_ = z_word_ + (incremental_ ? r_ : 0.0);
     if (has('Q')) q_ = number('Q');
     if (has('P')) p_ = word_.at('P').second;
     if (!has('X') && !has('Y') && !has('Z') && !has('R')) return;
@@ -148,7 +150,7 @@ class PlainControl {
   std::size_t line_ = 0;
   int motion_ = 0, cycle_ = 0;
   bool incremental_ = false, to_r_ = false, moved_ = false;
-  double initial_ = 0.0, r_ = 0.0, z_ = 0.0, q_ = 0.0;
+  double initial_ = 0.0, r_word_ = 0.0, z_word_ = 0.0, r_ = 0.0, z_ = 0.0, q_ = 0.0;
   std::string p_;
 };
 

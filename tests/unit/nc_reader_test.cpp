@@ -57,8 +57,9 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedCase{"G68 X0 Y0 R30\nG68.2 P1 X0\n", "2:1 3:1"},
         RefusedCase{"G92 X0\nG92.1\nG10 L2 P1 X0\n", "2:1 3:1 4:1"},
         RefusedCase{"M98 P1000\nG65 P9000\n", "2:1 3:1"}, RefusedCase{"G33 Z1 K1\n", "2:1"},
-        RefusedCase{"G59.1\nG54.1 P3\n", "2:1 3:1"},
-        RefusedCase{"M70\nG21\nM72\nM61 Q3\n", "2:1 4:1 5:1"}, RefusedCase{"G0 G1 X1\n", "2:4"}));
+        RefusedCase{"G59.1\nG54.1 P3\n", "2:1 3:1"}, RefusedCase{"M47\nN5 M99 P2\n", "2:1 3:8"},
+        RefusedCase{"M99\n", ""}, RefusedCase{"M70\nG21\nM72\nM61 Q3\n", "2:1 4:1 5:1"},
+        RefusedCase{"G0 G1 X1\n", "2:4"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Words, NcRefused,
@@ -94,17 +95,22 @@ TEST(NcReader, AxisWordsBeforeAMotionAndUnknownStart) {
   EXPECT_EQ(places("G43 H1\nT3 M6\nG43 H1\nG43 H23\n", options), "1:5 3:5");
 }
 
-// Where X Y Z are of the tip, another tool has it elsewhere: an axis that is not named would stay.
-TEST(NcReader, AnotherToolMovesTheTip) {
+// Another tool has its tip elsewhere, and many machines change it at a position of their own: the
+// new program took the axes there in a rapid move at the Z of before.
+TEST(NcReader, AfterAnotherToolXYZAreNotKnown) {
   ReadOptions options = xyzac();
-  options.mode = PositionMode::tip;
-  EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT1 M6\nX2\n", options), "");
-  EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nX2\n", options), "4:1");
+  for (const PositionMode mode : {PositionMode::axes, PositionMode::tip}) {
+    options.mode = mode;
+    EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT1 M6\nX2\n", options), "");
+    EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nX2\n", options), "4:1");
+    EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nX2 Y2 Z2\n", options), "");
+  }
 }
 
 TEST(NcReader, WordsInForceInMmAndRad) {
   const Program program = read_program(
-      "G0 X1 Y2 Z3 A10 C-20\nG20 G1 X.5 F10\nN7 G93 C30 F2\nG21 T4 M6\nG43 H4 Z7\nG43.4 H4 X1 Y1 "
+      "G0 X1 Y2 Z3 A10 C-20\nG20 G1 X.5 F10\nN7 G93 C30 F2\nG21 T4 M6\nG43 H4 X12.7 Y2 Z7\nG43.4 "
+      "H4 X1 Y1 "
       "Z1\n"
       "G56 G0 X9 Y9 Z9 A9 C9\n",
       "p.nc", xyzac());
@@ -141,6 +147,29 @@ TEST(NcReader, AnotherWorkOffsetLeavesTheMachineWhereItIs) {
     EXPECT_NEAR(second[k] + options.zeros[1][k], first[k] + options.zeros[0][k], 1e-14) << k;
   EXPECT_NEAR(third[0] + options.zeros[0][0], 7.0 + options.zeros[1][0], 1e-14);
   EXPECT_EQ(third[5], 1.0 * rad_per_deg);
+}
+
+// The initial level is where the tool is, in words of the new offset: LinuxCNC goes to 53.
+TEST(NcReader, ACycleBeginsInTheWorkOffsetOfItsBlock) {
+  ReadOptions options = xyzac();
+  options.zeros[1][2] = -3.0;
+  const Program program =
+      read_program("G0 X1 Y2 Z50 A4 C5\nG55 G81 X7 Z-5 R2\nX8\n", "p.nc", options);
+  ASSERT_EQ(program.moves.size(), 9u);
+  EXPECT_EQ(program.moves[1].words[2], 53.0);
+  EXPECT_EQ(program.moves[4].words[2], 53.0);
+  EXPECT_EQ(program.moves[8].words[2], 53.0);
+}
+
+// The initial level is of the machine on one control and a word on another.
+TEST(NcReader, AWorkOffsetOfAnotherZWithinACycleIsRefused) {
+  ReadOptions options = xyzac();
+  options.zeros[1] = {10.0, 20.0, 0.0, 0.0, 0.0, 0.0};
+  options.zeros[2][2] = -3.0;
+  const std::string holes = "G0 X1 Y2 Z50 A4 C5\nG81 X7 Z-5 R2\n";
+  EXPECT_EQ(places(holes + "G55 X8\n", options), "");
+  EXPECT_EQ(places(holes + "G56 X8\nG54\n", options), "3:1 4:1");
+  EXPECT_EQ(places(holes + "G80 G56\nG81 X8 Z-5 R2\n", options), "");
 }
 
 // Distances to a point on the way home are not positions; what follows is read under G90.

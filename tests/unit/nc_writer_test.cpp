@@ -189,7 +189,8 @@ TEST(NcWriter, LinesStayWithin251Characters) {
 
 TEST(NcWriter, BlocksWithCodesThatMayRunOnceAreNotSplit) {
   for (const char* const code : {"M62 P1", "T2 M6", "M5", "M9"})
-    EXPECT_THROW(split("G1 X0 Y0 Z0 A0 C0\nX1 " + std::string(code) + "\n", 2), InputError) << code;
+    EXPECT_THROW(split("G1 X0 Y0 Z0 A0 C0\nX1 Y0 Z0 " + std::string(code) + "\n", 2), InputError)
+        << code;
   EXPECT_THROW(split("G93 G1 X0 Y0 Z0 A0 C0 F1\nX1\n", 2), InputError);
 }
 

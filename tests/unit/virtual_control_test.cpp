@@ -72,26 +72,42 @@ TEST(VirtualControl, ATipStaysWhereItIsSaidToBe) {
   EXPECT_NEAR(moves[1].duration_s, 54.0, 1e-9);  // a way in degrees alone
 }
 
+void expect_same_moves(const std::string& text, const Machine& machine) {
+  const ProgramAxes axes(machine);
+  const nc::Program read = nc::read_program(text, "p.nc", axes.read_options(std::nullopt));
+  const auto moves = moves_of_program(machine, text, "p.nc");
+  ASSERT_EQ(moves.size(), read.moves.size()) << trueaxis::testing::pasted(text);
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const auto positions = axes.positions(read.moves[i].words, read.moves[i].modal);
+    EXPECT_EQ(moves[i].line, read.moves[i].line + 1);
+    EXPECT_EQ(moves[i].rapid, read.moves[i].modal.motion == nc::Motion::rapid);
+    EXPECT_EQ(moves[i].begins_anew, !read.moves[i].continues);
+    for (std::size_t k = 0; k < axis_count; ++k)
+      EXPECT_NEAR(moves[i].to[k], (*positions)[k], 1e-10) << i << ' ' << k;
+  }
+}
+
 TEST(VirtualControl, ReadsAsTheCompensationDoes) {
   constexpr std::uint64_t seed = 20261123;
   std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
   trueaxis::testing::ProgramMaker maker(seed);
   const Machine machine = machine_with_tools();
-  const ProgramAxes axes(machine);
   for (int number = 0; number < 50; ++number) {
-    const std::string text = maker.next(30);
-    const nc::Program read = nc::read_program(text, "p.nc", axes.read_options(std::nullopt));
-    const auto moves = moves_of_program(machine, text, "p.nc");
-    ASSERT_EQ(moves.size(), read.moves.size()) << trueaxis::testing::pasted(text);
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-      const auto positions = axes.positions(read.moves[i].words, read.moves[i].modal);
-      EXPECT_EQ(moves[i].line, read.moves[i].line + 1);
-      EXPECT_EQ(moves[i].rapid, read.moves[i].modal.motion == nc::Motion::rapid);
-      EXPECT_EQ(moves[i].begins_anew, !read.moves[i].continues);
-      for (std::size_t k = 0; k < axis_count; ++k)
-        EXPECT_NEAR(moves[i].to[k], (*positions)[k], 1e-10) << number << ' ' << i << ' ' << k;
-    }
+    SCOPED_TRACE(number);
+    expect_same_moves(maker.next(30), machine);
   }
+}
+
+// Under G91 a new R moves the bottom, and the initial level is a word of the block's offset.
+TEST(VirtualControl, DrillsAsTheCompensationDoes) {
+  const std::string text =
+      "G0 X1 Y2 Z80 A4 C5\nG91 G55 G81 X10 R-45 Z-8 F100\nX10 R-30\nG90 X9 Z-9 R2\nX8\n";
+  const Machine machine = machine_with_tools();
+  expect_same_moves(text, machine);
+  const auto moves = moves_of_program(machine, text, "p.nc");
+  ASSERT_EQ(moves.size(), 17u);
+  EXPECT_NEAR(moves[3].to[2], 83.0 - 45.0 - 8.0, 1e-12);
+  EXPECT_NEAR(moves[7].to[2], 83.0 - 30.0 - 8.0, 1e-12);
 }
 
 /// Points on the way against the arc's own equation, and how far it turns.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/angle.hpp"
@@ -44,11 +45,17 @@ ErrorsOfFiles read_errors_files(std::span<const std::string> paths, const Machin
   ErrorModel& all = out.errors;
   std::vector<Diagnostic> wrong;
   std::string of_components;
+  std::map<std::string, std::string> path_of;  // of a hash
   for (const std::string& path : paths) {
     try {
       const std::string content = read_file(path);
-      const ErrorModel one = read_one(content, path, machine.machine, said);
       out.hashes.push_back(content_hash(content));
+      if (const auto [first, is_new] = path_of.emplace(out.hashes.back(), path); !is_new)
+        throw InputError(path, first->second == path
+                                   ? "is named twice, and its errors would add: name it once"
+                                   : "holds the errors of " + first->second +
+                                         " again, and they would add: name one of the two");
+      const ErrorModel one = read_one(content, path, machine.machine, said);
       all.terms.insert(all.terms.end(), one.terms.begin(), one.terms.end());
       add_covariance(all.covariance, one.covariance);
       if (auto remark = machine_not_said(path, one, machine.machine); !remark.empty())

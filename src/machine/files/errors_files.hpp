@@ -31,7 +31,8 @@ struct ErrorsOfFiles {
 /// name add, and so do covariances, each file's being independent of the others'. is_errors_toml()
 /// is `trueaxis.errors/1`, `.csv` the ISG table, any other name the Etalon exchange format; the
 /// last two do not say their sign, `said` does.
-/// @throws InputError with every diagnostic of every file; where component errors come from two.
+/// @throws InputError with every diagnostic of every file; where component errors come from two, or
+/// two are the same.
 ErrorsOfFiles read_errors_files(std::span<const std::string> paths, const MachineFile& machine,
                                 const ErrorsFiles& said = {});
 

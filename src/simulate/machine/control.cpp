@@ -88,13 +88,11 @@ class Control {
   }
 
   void put_in_force(const BlockWords& block) {
+    const double cycle_before = cycle_;
     for (const double code : block.g) {
       if (code <= 3.0) motion_ = static_cast<int>(code);
       if (code <= 3.0 || code == 80.0) cycle_ = 80.0;
-      if (code >= 81.0 && code <= 83.0) {
-        if (cycle_ == 80.0) from_level_mm_ = lead()[2];
-        cycle_ = code;
-      }
+      if (code >= 81.0 && code <= 83.0) cycle_ = code;
       if (code == 98.0 || code == 99.0) back_to_r_ = code == 99.0;
       if (code >= 17.0 && code <= 19.0) plane_ = static_cast<int>(code);
       if (code == 20.0 || code == 21.0) unit_mm_ = code == 20.0 ? mm_per_inch : 1.0;
@@ -103,6 +101,7 @@ class Control {
       if (code == 90.0 || code == 91.0) incremental_ = code == 91.0;
       if (code >= 93.0 && code <= 95.0) feed_mode_ = code;
     }
+    if (cycle_before == 80.0 && cycle_ != 80.0) from_level_mm_ = lead()[2];
     if (block.has('F')) feed_ = block.of_letter.at('F');
     if (block.has('S')) speed_rpm_ = block.of_letter.at('S');
     if (block.has('T')) selected_ = static_cast<int>(block.of_letter.at('T'));
@@ -197,12 +196,14 @@ class Control {
   /// G81, G82, G83: above the hole, to R, down, back; below R first up to it.
   void drill(const BlockWords& block) {
     const auto mm = [&](char letter) { return unit_mm_ * block.of_letter.at(letter); };
-    if (block.has('R')) r_mm_ = mm('R') + (incremental_ ? from_level_mm_ : 0.0);
-    if (block.has('Z')) bottom_mm_ = mm('Z') + (incremental_ ? r_mm_ : 0.0);
+    if (block.has('R')) r_word_mm_ = mm('R');
+    if (block.has('Z')) z_word_mm_ = mm('Z');
+    const double r_mm = r_word_mm_ + (incremental_ ? from_level_mm_ : 0.0),
+                 bottom_mm = z_word_mm_ + (incremental_ ? r_mm : 0.0);
     if (block.has('Q')) peck_mm_ = mm('Q');
     if (block.has('P')) dwell_s_ = block.of_letter.at('P');
     if (!block.has('X') && !block.has('Y') && !block.has('Z') && !block.has('R')) return;
-    if (plane_ != 17 || !(bottom_mm_ < r_mm_) || (cycle_ == 83.0 && !(peck_mm_ > 0.0)))
+    if (plane_ != 17 || !(bottom_mm < r_mm) || (cycle_ == 83.0 && !(peck_mm_ > 0.0)))
       return complain(block, "a cycle in G18 or G19, with Z above R, or G83 without Q");
     Vector3 at = lead();
     const auto to_level = [&](double level_mm, double code) {
@@ -213,25 +214,25 @@ class Control {
     const double repeats = block.has('K')   ? block.of_letter.at('K')
                            : block.has('L') ? block.of_letter.at('L')
                                             : 1.0;
-    if (at[2] < r_mm_) to_level(r_mm_, 0.0);
+    if (at[2] < r_mm) to_level(r_mm, 0.0);
     for (int hole = 0; hole < static_cast<int>(repeats); ++hole) {
       const Vector3 last = at;
       for (std::size_t k = 0; k < 2; ++k)
         if (block.has(letters[k])) at[k] = mm(letters[k]) + (incremental_ ? at[k] : 0.0);
       if (hole == 0 || at != last) step(block, at, 0.0);
-      to_level(r_mm_, 0.0);
-      double depth = r_mm_;
-      while (depth > bottom_mm_) {
-        if (depth < r_mm_) {
+      to_level(r_mm, 0.0);
+      double depth = r_mm;
+      while (depth > bottom_mm) {
+        if (depth < r_mm) {
           constexpr double clearance_mm = 0.254;
-          to_level(r_mm_, 0.0);
-          to_level(std::fmin(depth + clearance_mm, r_mm_), 0.0);
+          to_level(r_mm, 0.0);
+          to_level(std::fmin(depth + clearance_mm, r_mm), 0.0);
         }
-        depth = cycle_ == 83.0 ? std::fmax(depth - peck_mm_, bottom_mm_) : bottom_mm_;
+        depth = cycle_ == 83.0 ? std::fmax(depth - peck_mm_, bottom_mm) : bottom_mm;
         to_level(depth, 1.0);
       }
       if (cycle_ == 82.0) clock_s_ += dwell_s_;
-      to_level(back_to_r_ ? r_mm_ : std::fmax(from_level_mm_, r_mm_), 0.0);
+      to_level(back_to_r_ ? r_mm : std::fmax(from_level_mm_, r_mm), 0.0);
     }
   }
 
@@ -287,7 +288,7 @@ class Control {
   bool incremental_ = false, anew_ = true;
   int motion_ = -1, plane_ = 17;  ///< -1: no G0 … G3 yet
   double unit_mm_ = 1.0, length_ = 49.0, feed_mode_ = 94.0, feed_ = 0.0, speed_rpm_ = 0.0;
-  double cycle_ = 80.0, from_level_mm_ = 0.0, r_mm_ = 0.0, bottom_mm_ = 0.0, peck_mm_ = 0.0,
+  double cycle_ = 80.0, from_level_mm_ = 0.0, r_word_mm_ = 0.0, z_word_mm_ = 0.0, peck_mm_ = 0.0,
          dwell_s_ = 0.0;  ///< of canned cycles
   bool back_to_r_ = false;
   std::size_t offset_ = 0;
