@@ -83,6 +83,31 @@ XConvention x_convention(const CsvHeader& header, const CsvKnownMetadata& known,
   return {diameter, said ? SaidBy::stream : caller};
 }
 
+/// What the file and the caller say of a gauge: they must agree.
+void take_gauge(const CsvMetadataReader& metadata, const StreamReadOptions& options,
+                ProbeStream& stream, CsvDiagnostics& diagnostics) {
+  constexpr double rounding = 1e-9;  // of a length in another unit
+  const CsvKnownMetadata& known = metadata.known;
+  const auto contradicts = [&](const char* key, const std::string& stated,
+                               const std::string& said) {
+    diagnostics.add(metadata.line_of(key), 0,
+                    fmt::format("{} is {} in the file, but {} says {}: keep one", key, stated,
+                                options.caller(), said));
+  };
+  stream.indication = options.indication.value_or(known.indication.value_or(Indication::absolute));
+  if (known.indication.value_or(stream.indication) != stream.indication) {
+    const bool relative = stream.indication == Indication::relative;
+    contradicts("reading", relative ? "absolute" : "relative", relative ? "relative" : "absolute");
+  }
+  stream.nominal_radius_mm =
+      options.nominal_radius_mm ? options.nominal_radius_mm : known.nominal_radius_mm;
+  if (!known.nominal_radius_mm) return;
+  const double stated_mm = *known.nominal_radius_mm, said_mm = *stream.nominal_radius_mm;
+  if (std::abs(said_mm - stated_mm) > rounding * stated_mm)
+    contradicts("nominal_radius", fmt::format("{:.10g} mm", stated_mm),
+                fmt::format("{:.10g} mm", said_mm));
+}
+
 /// The set-ups that have readings, as the metadata state them; a statement about another is wrong.
 void take_set_ups(const CsvHeader& header, const CsvKnownMetadata& known, ProbeStream& stream,
                   CsvDiagnostics& diagnostics) {
@@ -285,9 +310,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   }
   if (const CsvColumn* time = header.find(CsvRole::time)) scale(stream.time_s, time->unit.factor);
   stream.kind = header.kind;
-  stream.indication = options.indication.value_or(known.indication.value_or(Indication::absolute));
-  stream.nominal_radius_mm =
-      options.nominal_radius_mm ? options.nominal_radius_mm : known.nominal_radius_mm;
+  take_gauge(metadata, options, stream, diagnostics);
   stream.sensor_noise_mm = known.sensor_noise_mm;
   stream.ball_radius_mm = known.ball_radius_mm;
   stream.spindle_rpm = known.spindle_rpm;
