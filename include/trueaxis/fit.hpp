@@ -28,7 +28,7 @@ enum class FitStatus {
   max_iterations,
   rank_deficient,
   too_few,
-  implausible,  ///< cannot be the readings of a probe on this surface; the message says why
+  implausible,  ///< no probe on this surface reads so, or no part has its radius: see message
 };
 
 /// What the standard deviation of a reading follows from.

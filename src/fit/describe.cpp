@@ -12,6 +12,7 @@
 #include "fit/apex_interval.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
+#include "measure/centre_of_ball.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -212,31 +213,6 @@ void report_rms(FitResult& result) {
   result.rms_mm = std::sqrt(std::max(0.0, sum) / std::max<double>(1.0, static_cast<double>(left)));
 }
 
-/// A radius that no part has: the ball is larger than the path of its centre.
-void note_radius(FitResult& result) {
-  if (result.surface == SurfaceKind::plane || result.surface == SurfaceKind::own) return;
-  if (!is_diagnosed(result.surface)) {
-    for (const char* name : {"radius", "minor_radius"})
-      for (const FitParameter& p : result.parameters)
-        if (p.name == name && !(p.estimate.value > p.estimate.expanded(result.coverage_factor)))
-          result.notes.push_back(fmt::format(
-              "no part has a {} of {:.6g} mm: give the radius of the probe's ball, or remove it if "
-              "the readings are contact points",
-              p.name == std::string("radius") ? "radius" : "tube radius", p.estimate.value));
-    return;
-  }
-  for (const double z_mm : {result.position_min_mm, result.position_max_mm}) {
-    const double radius_mm =
-        result.shape.radius_mm + result.shape.tan_half_angle * (z_mm - result.shape.axis.z_ref_mm);
-    if (!(radius_mm <= radius_U_mm(result))) continue;
-    result.notes.push_back(fmt::format(
-        "the part would have a radius of {:.6g} mm at Z = {:.6g} mm, which is impossible: give the "
-        "radius of the probe's ball, or remove it if the readings are contact points",
-        radius_mm, z_mm));
-    return;
-  }
-}
-
 constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with probability 2e-9
 
 void add_notes(const ReadingNoise& noise, FitResult& result) {
@@ -292,6 +268,29 @@ double radius_U_mm(const FitResult& fit) {
       if ((p.name == "radius" || p.name == "radius_mid") && std::isfinite(p.estimate.u))
         U_mm = fit.coverage_factor * p.estimate.u;
   return U_mm;
+}
+
+std::string impossible_radius(const FitResult& fit, bool within_U) {
+  if (fit.surface == SurfaceKind::plane || fit.surface == SurfaceKind::own) return "";
+  if (!is_diagnosed(fit.surface)) {
+    for (const char* name : {"radius", "minor_radius"})
+      for (const FitParameter& p : fit.parameters)
+        if (p.name == name &&
+            !(p.estimate.value > (within_U ? p.estimate.expanded(fit.coverage_factor) : 0.0)))
+          return fmt::format("no part has a {} of {:.6g} mm: {}",
+                             p.name == std::string("radius") ? "radius" : "tube radius",
+                             p.estimate.value, mend_ball_radius);
+    return "";
+  }
+  for (const double z_mm : {fit.position_min_mm, fit.position_max_mm}) {
+    const double radius_mm =
+        fit.shape.radius_mm + fit.shape.tan_half_angle * (z_mm - fit.shape.axis.z_ref_mm);
+    if (!(radius_mm <= (within_U ? radius_U_mm(fit) : 0.0))) continue;
+    return fmt::format(
+        "the part would have a radius of {:.6g} mm at Z = {:.6g} mm, which is impossible: {}",
+        radius_mm, z_mm, mend_ball_radius);
+  }
+  return "";
 }
 
 void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
@@ -381,7 +380,8 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
                            " times; parameters and axis are those of " +
                            set_up_name(set_ups.back().set_up) + ", the last");
   }
-  note_radius(result);
+  if (std::string note = impossible_radius(result, true); !note.empty())
+    result.notes.push_back(std::move(note));
   add_notes(noise, result);
 }
 

@@ -176,7 +176,9 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
       return FitResult{};
     }
   };
-  if (const std::string why = implausible(stream, result, refit); !why.empty()) refuse(result, why);
+  std::string why = implausible(stream, result, refit);
+  if (why.empty() && result.status == FitStatus::converged) why = impossible_radius(result, false);
+  if (!why.empty()) refuse(result, why);
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "form/notes.hpp"
 #include "form/sampling.hpp"
+#include "measure/centre_of_ball.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
@@ -59,9 +60,7 @@ std::vector<SectionModel> models_of(const Sections& sections, const FormOptions&
   return models;
 }
 
-}  // namespace
-
-Part part_of(const ProbeStream& stream, const FormOptions& options) {
+Part part_within_ball(const ProbeStream& stream, const FormOptions& options) {
   Part out;
   const int carried =
       options.filter == ProfileFilter::none ? 0 : upr_of_surface(stream, options).by_steps;
@@ -75,6 +74,17 @@ Part part_of(const ProbeStream& stream, const FormOptions& options) {
   out.sections.notes.push_back(note_of_surface(readings));
   out.model.surface.emplace(readings, options);
   out.model.sections = out.model.surface->sections();
+  return out;
+}
+
+}  // namespace
+
+Part part_of(const ProbeStream& stream, const FormOptions& options) {
+  Part out = part_within_ball(stream, options);
+  for (const SectionModel& one : out.model.sections)
+    if (one.radius_known() && !(one.surface_radius_mm() > 0.0))
+      throw InputError(stream.source, fmt::format("no part has a radius of {:.6g} mm: {}",
+                                                  one.surface_radius_mm(), mend_ball_radius));
   return out;
 }
 

@@ -5,6 +5,10 @@
 
 namespace trueaxis {
 
+/// What to do if the ball is larger than the path of its centre.
+inline constexpr const char* mend_ball_radius =
+    "give the radius of the probe's ball, or remove it if the readings are contact points";
+
 /// Whether the one set-up of a lateral stream is probed on the rear side: the sign of X_M tells,
 /// for a gauge what is stated.
 bool is_probed_behind(const ProbeStream& stream);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -73,8 +74,23 @@ std::optional<UnitChange> way_changes_unit(const std::vector<double>& column, bo
   return {};
 }
 
-/// For readings: a turn is a unit times the turn before, within the difference of the two turns
-/// before. A seat of twice the radius has no twice the eccentricity.
+/// How much a turn of readings is apart from the turn before.
+struct TurnStep {
+  double mean_mm = 0.0, scatter_mm = 0.0;
+};
+
+TurnStep step_of(const std::vector<double>& apart_mm) {
+  const auto count = static_cast<double>(apart_mm.size());
+  TurnStep step;
+  for (const double d : apart_mm) step.mean_mm += d / count;
+  double squares = 0.0;
+  for (const double d : apart_mm) squares += (d - step.mean_mm) * (d - step.mean_mm);
+  step.scatter_mm = std::sqrt(squares / count);
+  return step;
+}
+
+/// For readings: a turn is a unit times the turn before, but for the step that the taper made
+/// before and the scatter about it. A seat of twice the radius has no twice the eccentricity.
 std::optional<UnitChange> reading_changes_unit(const ProbeStream& stream) {
   const std::vector<double>& x = stream.reading_mm;
   if (stream.kind == StreamKind::face || stream.indication == Indication::relative) return {};
@@ -90,35 +106,30 @@ std::optional<UnitChange> reading_changes_unit(const ProbeStream& stream) {
     for (std::size_t i = pass.begin; i < pass.end; ++i) pass_of[i] = passes;
     ++passes;
   }
-  const auto apart_mm = [&](std::size_t begin, double factor) {  // of a turn from the turn before
-    double squares = 0.0;
-    for (std::size_t i = begin; i < begin + turn; ++i) {
-      const double d = x[i] / factor - x[i - turn];
-      squares += d * d;
-    }
-    return std::sqrt(squares / static_cast<double>(turn));
+  const auto apart_mm = [&](std::size_t begin, double factor, bool within_pass) {
+    std::vector<double> apart;  // of a turn from the turn before
+    for (std::size_t i = begin; i < begin + turn; ++i)
+      if (!within_pass || pass_of[i] == pass_of[i - turn])
+        apart.push_back(x[i] / factor - x[i - turn]);
+    return apart;
   };
-  // As above, within a pass: one section is not as the next. Sections of one turn have only those.
-  const auto usually_apart_mm = [&](std::size_t begin) {
-    double squares = 0.0;
-    std::size_t count = 0;
-    for (std::size_t i = begin; i < begin + turn; ++i) {
-      if (pass_of[i] != pass_of[i - turn]) continue;
-      const double d = x[i] - x[i - turn];
-      squares += d * d;
-      ++count;
-    }
-    return 2 * count < turn ? apart_mm(begin, 1.0)
-                            : std::sqrt(squares / static_cast<double>(count));
+  // Within a pass: one section is not as the next. Sections of one turn have only those.
+  const auto usual_step_mm = [&](std::size_t begin) {
+    const std::vector<double> within = apart_mm(begin, 1.0, true);
+    return step_of(2 * within.size() < turn ? apart_mm(begin, 1.0, false) : within);
   };
   for (std::size_t i = 2 * turn; i + turn <= x.size(); ++i) {
     for (const auto& [unit, what] : of_lengths) {
       if (unit < 0.0 && begins[i]) continue;
       for (const double factor : {unit, 1.0 / unit}) {
         if (std::abs(x[i] - factor * x[i - 1]) > 0.05 * std::abs(factor * x[i - 1])) continue;
-        const double usual_mm = near_steps * usually_apart_mm(i - turn);
-        if (apart_mm(i, factor) <= usual_mm && apart_mm(i, 1.0) > usual_mm)
-          return UnitChange{i + 1, what};
+        const TurnStep usual = usual_step_mm(i - turn);
+        const auto goes_on = [&](double by) {
+          const TurnStep step = step_of(apart_mm(i, by, false));
+          const double beyond_mm = std::max(0.0, std::abs(step.mean_mm) - std::abs(usual.mean_mm));
+          return std::hypot(step.scatter_mm, beyond_mm) <= near_steps * usual.scatter_mm;
+        };
+        if (goes_on(factor) && !goes_on(1.0)) return UnitChange{i + 1, what};
       }
     }
   }

@@ -145,6 +145,30 @@ TEST(UnitChanges, ASectionOfTwiceTheRadiusIsNotInAnotherUnit) {
   EXPECT_TRUE(unit_changes(doubled).find("(radius and diameter)") != std::string::npos);
 }
 
+// A taper of 0.12 mm per revolution, then a seat of nearly half the radius with the same axis: the
+// step is within three of the taper's, but the eccentricity is not half. Halved readings have that
+// as well.
+TEST(UnitChanges, ATaperAndASeatOfHalfItsRadiusAreOneUnit) {
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> noise(0.0, 5e-4);
+  ProbeStream shaft;
+  shaft.x_convention = XConvention{};
+  for (int i = 0; i < 972; ++i) {
+    const double turns = i / 24.3;
+    shaft.c_rad.push_back(two_pi * turns);
+    shaft.position_mm.push_back(turns);
+    shaft.reading_mm.push_back((i < 486 ? 36.0 + 0.12 * turns : 19.1 + 0.12 * (turns - 20.0)) +
+                               0.05 * std::cos(two_pi * turns) + noise(random));
+  }
+  EXPECT_EQ(unit_changes(shaft), "");
+  ProbeStream halved = shaft;
+  for (std::size_t i = 0; i < 972; ++i) {
+    halved.reading_mm[i] -= i < 486 ? 0.0 : 19.1 - 38.4;
+    if (i >= 486) halved.reading_mm[i] *= 0.5;
+  }
+  EXPECT_TRUE(unit_changes(halved).find("(radius and diameter)") != std::string::npos);
+}
+
 TEST(ColumnOrder, ASensorAtItsLimitIsSeenAndAQuantisedOneIsNot) {
   ProbeStream clipped = helix(), rounded = helix(0.0, 0.0);
   for (double& x : clipped.reading_mm) x = std::min(x, 20.04);

@@ -246,20 +246,21 @@ TEST(FitDerived, TheRmsOfATukeyLossIsOfWhatItKeeps) {
 
 // The ball's centre runs on 22 to 28 mm: a ball of 24 mm leaves a radius below 0 at one end, here
 // the first; of a cylinder at both.
-TEST(FitDerived, ABallThatIsTooLargeIsNotedWhereItIs) {
+TEST(FitDerived, ABallThatIsTooLargeIsRefusedWhereItIs) {
   FitOptions options;
   options.ball_radius_mm = 24.0;
   const FitResult found = fit(cone({}), options);
-  ASSERT_FALSE(found.notes.empty());
-  EXPECT_NE(found.notes.front().find("at Z = 0 mm, which is impossible"), std::string::npos)
-      << found.notes.front();
+  EXPECT_EQ(found.status, FitStatus::implausible);
+  EXPECT_NE(found.message.find("at Z = 0 mm, which is impossible"), std::string::npos)
+      << found.message;
   ProbeStream other = cone({});
   for (double& z : other.position_mm) z = 50.0 - z;
   const FitResult turned = fit(other, options);
-  ASSERT_FALSE(turned.notes.empty());
-  EXPECT_NE(turned.notes.front().find("at Z = 50 mm, which is impossible"), std::string::npos)
-      << turned.notes.front();
+  EXPECT_EQ(turned.status, FitStatus::implausible);
+  EXPECT_NE(turned.message.find("at Z = 50 mm, which is impossible"), std::string::npos)
+      << turned.message;
   options.ball_radius_mm = 20.0;
+  EXPECT_EQ(fit(cone({}), options).status, FitStatus::converged);
   EXPECT_TRUE(fit(cone({}), options).notes.empty());
 }
 

@@ -281,15 +281,14 @@ TEST(SphereTorus, AreFittedAndNotDiagnosedAndTakeNoGauge) {
   EXPECT_THROW(fit(stream, options.fit), InputError);
 }
 
-/// A ball larger than what it touches is reported, as for a cylinder.
-TEST(Sphere, ABallThatIsTooLargeIsSaid) {
+/// A ball larger than what it touches is refused, as for a cylinder.
+TEST(Sphere, ABallThatIsTooLargeIsRefused) {
   FitOptions options;
   options.surface = SurfaceKind::sphere;
   options.ball_radius_mm = 30.0;
   const FitResult found = fit(sphere(25.0), options);
-  ASSERT_FALSE(found.notes.empty());
-  EXPECT_NE(found.notes.front().find("no part has a radius of -5"), std::string::npos)
-      << found.notes.front();
+  EXPECT_EQ(found.status, FitStatus::implausible);
+  EXPECT_NE(found.message.find("no part has a radius of -5"), std::string::npos) << found.message;
 }
 
 TEST(Sphere, ASphereFromAFileIsRefusedAsACylinder) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/files/stream_csv.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -154,14 +155,32 @@ TEST_F(StreamCsv, SetUpsAreReadInOrderOfNumber) {
   EXPECT_EQ(read("X_M,C\n1,0\n2,90\n").setups, std::vector<trueaxis::SetUp>{{}});
 }
 
-TEST_F(StreamCsv, CallerOverridesIndicationAndNominalRadius) {
+TEST_F(StreamCsv, WhatFileAndCallerSayOfAGaugeMustAgree) {
   StreamReadOptions options;
   options.indication = Indication::relative;
-  options.nominal_radius_mm = 14.5;
-  const ProbeStream s =
-      read("# nominal_radius: 20 mm\n# reading: absolute\nX_M,C\n1,0\n2,90\n", options);
-  EXPECT_EQ(s.indication, Indication::relative);
-  EXPECT_EQ(s.nominal_radius_mm, 14.5);
+  options.nominal_radius_mm = 12.7;
+  const std::string rows = "X_M,C\n1,0\n2,90\n";
+  for (const char* agreeing : {"", "# nominal_radius: 0.5 in\n# reading: relative\n"}) {
+    const ProbeStream s = read(agreeing + rows, options);
+    EXPECT_EQ(s.indication, Indication::relative);
+    EXPECT_DOUBLE_EQ(*s.nominal_radius_mm, 12.7);
+  }
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      read(text, options);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(
+      refusal("# nominal_radius: 30 mm\n" + rows),
+      testing::HasSubstr(
+          ":1: nominal_radius is 30 mm in the file, but the option says 12.7 mm: keep one"));
+  options.diameter_said_by = SaidBy::job;
+  EXPECT_THAT(refusal("# nominal_radius: 12.7 mm\n# reading: absolute\n" + rows),
+              testing::HasSubstr(
+                  ":2: reading is absolute in the file, but the job says relative: keep one"));
 }
 
 /// C of a column that turns by `step` degrees, wrapped into [low, low + 360).

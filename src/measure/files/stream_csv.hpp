@@ -17,8 +17,8 @@ namespace trueaxis {
 struct StreamReadOptions {
   std::optional<bool> diameter;              ///< X_M is a diameter (true) or a radius (false)
   SaidBy diameter_said_by = SaidBy::option;  ///< who says so
-  std::optional<Indication> indication;      ///< overrides metadata `reading`
-  std::optional<double> nominal_radius_mm;   ///< overrides metadata `nominal_radius`
+  std::optional<Indication> indication;      ///< as metadata `reading`
+  std::optional<double> nominal_radius_mm;   ///< as metadata `nominal_radius`
   bool several_sensors = false;              ///< columns X_M1, X_M2 … may be read
   std::vector<double> sensor_angles_rad{};   ///< of a stream that does not say `sensor_angles`
   std::size_t max_diagnostics = 1000;        ///< further ones are counted, not listed
@@ -26,7 +26,7 @@ struct StreamReadOptions {
   /// The command that was typed, without what says how a stream is read; empty: none, or a job.
   std::vector<std::string> typed{};
 
-  /// The source of `diameter`, in words.
+  /// The caller, in words.
   const char* caller() const { return diameter_said_by == SaidBy::job ? "the job" : "the option"; }
 };
 

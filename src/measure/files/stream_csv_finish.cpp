@@ -10,6 +10,7 @@
 #include "math/statistics.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
+#include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -82,6 +83,31 @@ XConvention x_convention(const CsvHeader& header, const CsvKnownMetadata& known,
   return {diameter, said ? SaidBy::stream : caller};
 }
 
+/// What the file and the caller say of a gauge: they must agree.
+void take_gauge(const CsvMetadataReader& metadata, const StreamReadOptions& options,
+                ProbeStream& stream, CsvDiagnostics& diagnostics) {
+  constexpr double rounding = 1e-9;  // of a length in another unit
+  const CsvKnownMetadata& known = metadata.known;
+  const auto contradicts = [&](const char* key, const std::string& stated,
+                               const std::string& said) {
+    diagnostics.add(metadata.line_of(key), 0,
+                    fmt::format("{} is {} in the file, but {} says {}: keep one", key, stated,
+                                options.caller(), said));
+  };
+  stream.indication = options.indication.value_or(known.indication.value_or(Indication::absolute));
+  if (known.indication.value_or(stream.indication) != stream.indication) {
+    const bool relative = stream.indication == Indication::relative;
+    contradicts("reading", relative ? "absolute" : "relative", relative ? "relative" : "absolute");
+  }
+  stream.nominal_radius_mm =
+      options.nominal_radius_mm ? options.nominal_radius_mm : known.nominal_radius_mm;
+  if (!known.nominal_radius_mm) return;
+  const double stated_mm = *known.nominal_radius_mm, said_mm = *stream.nominal_radius_mm;
+  if (std::abs(said_mm - stated_mm) > rounding * stated_mm)
+    contradicts("nominal_radius", fmt::format("{:.10g} mm", stated_mm),
+                fmt::format("{:.10g} mm", said_mm));
+}
+
 /// The set-ups that have readings, as the metadata state them; a statement about another is wrong.
 void take_set_ups(const CsvHeader& header, const CsvKnownMetadata& known, ProbeStream& stream,
                   CsvDiagnostics& diagnostics) {
@@ -136,7 +162,9 @@ constexpr MistakenUnit mistaken_units[] = {
     {1.0 / two_pi, CsvRole::angle, "C looks like turns: write C[rev]"},
     {two_pi, CsvRole::angle, "C looks like radians: write C[rad]"},
     {1e-3, CsvRole::time, milliseconds},
-    {1e3, CsvRole::time, seconds}};
+    {1e3, CsvRole::time, seconds},
+    {60.0, CsvRole::time, "t looks like minutes: write t in seconds, under t[s]"},
+    {3600.0, CsvRole::time, "t looks like hours: write t in seconds, under t[s]"}};
 
 /// The speeds from reading to reading while C turns, in ascending order.
 std::vector<double> speeds_rpm(const ProbeStream& stream) {
@@ -175,24 +203,37 @@ void refuse_impossible_speed(const CsvHeader& header, const ProbeStream& stream,
                               significant(sense * rpm, 4)));
 }
 
-/// The usual speed that C and t give, which neither a dwell nor a second speed is, is that of
-/// `spindle_rpm` times what one unit is in another: one of them is not what its header says.
-void refuse_mistaken_unit(const CsvHeader& header, const ProbeStream& stream,
-                          CsvDiagnostics& diagnostics) {
+/// Whether a pass turns at `spindle_rpm`: several passes may have speeds of their own. An induction
+/// motor slips by up to 5 %, and the next step of a speed override is 10 %.
+bool turns_as_stated(const ProbeStream& stream) {
+  constexpr double alike = 0.05;
+  const double said_rpm = std::abs(*stream.spindle_rpm);
+  return std::ranges::any_of(find_passes(stream), [&](const Pass& pass) {
+    const double rpm = std::abs(pass.speed_rad_per_s) * 60.0 / two_pi;
+    return std::abs(rpm - said_rpm) <= alike * said_rpm;
+  });
+}
+
+/// Refuses C and t that turn at another speed than `spindle_rpm`: a delay or lag would be one of
+/// another angle. The usual speed is neither that of a dwell nor a second one. If it is the stated
+/// one times what one unit is in another, a column is not what its header says.
+void refuse_mistaken_speed(const CsvHeader& header, const ProbeStream& stream,
+                           CsvDiagnostics& diagnostics) {
   constexpr double alike = 0.02;  // a spindle keeps its speed to 2 %
   const std::vector<double> speeds = speeds_rpm(stream);
   if (speeds.empty()) return;
-  if (!stream.spindle_rpm) return refuse_impossible_speed(header, stream, speeds, diagnostics);
-  const double rpm = median(speeds), said_rpm = std::abs(*stream.spindle_rpm);
-  if (said_rpm == 0.0) return;
-  for (const auto& [factor, column, advice] : mistaken_units) {
-    if (std::abs(rpm / said_rpm / factor - 1.0) > alike) continue;
-    diagnostics.add(header.line, header.find(column)->character,
-                    fmt::format("C and t give {:.4g} rpm, but spindle_rpm states {:.4g}: "
-                                "{}, or correct spindle_rpm",
-                                rpm, said_rpm, advice));
-    return;
-  }
+  const double rpm = median(speeds), said_rpm = std::abs(stream.spindle_rpm.value_or(0.0));
+  if (said_rpm == 0.0) return refuse_impossible_speed(header, stream, speeds, diagnostics);
+  if (turns_as_stated(stream)) return;
+  const auto mistaken = std::ranges::find_if(mistaken_units, [&](const MistakenUnit& one) {
+    return std::abs(rpm / said_rpm / one.factor - 1.0) <= alike;
+  });
+  const bool known = mistaken != std::end(mistaken_units);
+  diagnostics.add(
+      header.line, header.find(known ? mistaken->column : CsvRole::time)->character,
+      fmt::format("C and t give {:.4g} rpm, but spindle_rpm states {:.4g}: {}, or "
+                  "correct spindle_rpm",
+                  rpm, said_rpm, known ? mistaken->advice : "correct the unit of C or t"));
 }
 
 /// `spindle_rpm` is signed like C: if C and t always turn against it, one of them is mirrored, and
@@ -269,13 +310,11 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   }
   if (const CsvColumn* time = header.find(CsvRole::time)) scale(stream.time_s, time->unit.factor);
   stream.kind = header.kind;
-  stream.indication = options.indication.value_or(known.indication.value_or(Indication::absolute));
-  stream.nominal_radius_mm =
-      options.nominal_radius_mm ? options.nominal_radius_mm : known.nominal_radius_mm;
+  take_gauge(metadata, options, stream, diagnostics);
   stream.sensor_noise_mm = known.sensor_noise_mm;
   stream.ball_radius_mm = known.ball_radius_mm;
   stream.spindle_rpm = known.spindle_rpm;
-  refuse_mistaken_unit(header, stream, diagnostics);
+  refuse_mistaken_speed(header, stream, diagnostics);
   refuse_mistaken_sense(header, stream, diagnostics);
   stream.metadata = metadata.metadata;
   take_set_ups(header, known, stream, diagnostics);

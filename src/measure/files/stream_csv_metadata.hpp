@@ -44,6 +44,9 @@ class CsvMetadataReader {
   /// A comment after the header or a row, from byte `hash` of `line`: free text only.
   void comment_behind(std::string_view line, std::size_t hash, std::size_t line_number);
 
+  /// Where a known key that the file states is.
+  std::size_t line_of(const std::string& key) const { return known_lines_.at(key); }
+
   CsvKnownMetadata known;
   std::map<std::string, std::string> metadata;
 
