@@ -144,6 +144,7 @@ class NewProgram {
         static_cast<std::size_t>(std::ranges::count(moves_, false, &nc::Move::inserted));
     rank(out, tally);
     state_skipped(out.remarks);
+    state_unknown_rapids(out.remarks);
     list_worse(out.worse);
     if (task_.options.keep_ends) keep_ends(out);
     if (out.unreachable.empty()) write(out);
@@ -236,6 +237,15 @@ class NewProgram {
                 "blocks that begin with '/' move axes or change what positions mean") +
         " (first in line " + std::to_string(*lines.begin() + 1) +
         "): TrueAxis assumes that the control carries them out");
+  }
+
+  void state_unknown_rapids(std::vector<std::string>& remarks) const {
+    const std::vector<nc::Move>& list = task_.program.unknown_rapids;
+    if (list.empty()) return;
+    remarks.push_back(
+        counted(list.size(), "rapid move stays as it is", "rapid moves stay as they are") +
+        " (first in line " + std::to_string(task_.line_of(list.front())) +
+        "): the position of an axis is not known there");
   }
 
   void keep_ends(ProgramCompensation& out) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,9 +62,25 @@ struct Program {
   std::array<AxisValues, 6> zeros{};  ///< ReadOptions::zeros
   AxisValues start_words{};           ///< ReadOptions::start; NaN where it is not known
   std::size_t blocks = 0;             ///< lines with a word
+  /// Rapid moves with a linear axis whose position is not known: they stay as they are, and of
+  /// their `words` those of `named` are known.
+  std::vector<Move> unknown_rapids;
   /// Lines that begin with '/' and put something into force by which later positions are others.
   std::vector<std::size_t> skippable_states;
 
+  std::span<const Word> words_of(const Line& line) const {
+    return {words.data() + line.first_word, line.word_count};
+  }
+  std::size_t index_of(const Line& line) const {
+    return static_cast<std::size_t>(&line - lines.data());
+  }
+  /// What ends a line, and the one before where it is the last of the text.
+  std::string_view end_of(const Line& line) const {
+    const std::size_t index = index_of(line);
+    const std::size_t next = index + 1 < lines.size() ? lines[index + 1].begin : text.size();
+    if (next > line.end) return std::string_view(text).substr(line.end, next - line.end);
+    return index > 0 ? end_of(lines[index - 1]) : "\n";
+  }
   std::string_view text_of(const Line& line) const {
     return std::string_view(text).substr(line.begin, line.end - line.begin);
   }

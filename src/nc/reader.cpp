@@ -62,10 +62,9 @@ class Reader {
   }
 
   void take_program_number() {
-    if (block_.word('O') != nullptr && !program_.moves.empty()) {
-      forget(all_axes, "the program that begins");
-      continues_ = false;
-    }
+    if (block_.word('O') == nullptr || program_.moves.empty()) return;
+    forget(all_axes, "the program that begins");
+    continues_ = false;
   }
 
   /// The whole number of a word, or -1 and a complaint.
@@ -142,7 +141,7 @@ class Reader {
         options_.zeros[before_.work_offset][2] != options_.zeros[state_.work_offset][2];
     if (options_.work_offsets[state_.work_offset] && !in_cycle) return;
     const int code = 54 + state_.work_offset;
-    for (const Word& word : words_of_line())
+    for (const Word& word : program_.words_of(program_.lines[line_]))
       if (word.letter == 'G' && word.number == code)
         complain(word,
                  "G" + std::to_string(code) +
@@ -199,9 +198,12 @@ class Reader {
     if (block_.has_g(g_home) || block_.has_g(g_second_home)) leave();
   }
 
-  /// After G28, G30 and G53 the machine is somewhere that the program does not say.
+  /// After G28, G30 and G53 the axes that they name, or all, and the tip are somewhere else.
   void leave() {
-    forget(all_axes, block_.has_g(g_machine) ? "G53" : block_.has_g(g_home) ? "G28" : "G30");
+    const char* const by = block_.has_g(g_machine) ? "G53" : block_.has_g(g_home) ? "G28" : "G30";
+    forget(block_.named != 0 ? block_.named : all_axes, by);
+    if (options_.mode == PositionMode::tip || state_.length == LengthOffset::tip)
+      forget(linear_axes, by);
     continues_ = false;
   }
 
@@ -211,23 +213,28 @@ class Reader {
     const AxisValues from = words_;
     take_words();
     const auto missing = static_cast<AxisSet>(options_.axes & ~known_);
-    if ((missing & ~told_) != 0) {
-      complain(first, "the position of " + names_of(missing) + " is not known here (" +
-                          unknown_since_ + "): give it in this block");
-      told_ = missing;
+    Move made{.line = static_cast<std::uint32_t>(line_),
+              .named = block_.named,
+              .words = words_,
+              .modal = state_};
+    if (missing != 0) {
+      if (state_.motion == Motion::rapid && (missing & ~linear_axes) == 0) {
+        program_.unknown_rapids.push_back(made);
+        continues_ = false;
+      } else if ((missing & ~told_) != 0) {
+        complain(first, "the position of " + names_of(missing) + " is not known here (" +
+                            unknown_since_ + "): give it in this block");
+        told_ = missing;
+      }
+      return;
     }
-    if (missing != 0) return;
     check_tool(first);
-    Move made;
-    made.line = static_cast<std::uint32_t>(line_);
-    made.modal = state_;
     made.decimals = decimals_;
     made.sets = sets_something();
     made.may_be_split =
         std::ranges::all_of(block_.m, [](int code) { return stops(code) || starts(code); });
     if (is_arc(state_.motion)) add_chords(first, made, from, before == options_.axes);
     made.words = words_;
-    made.named = block_.named;
     made.continues = continues_;
     program_.moves.push_back(made);
     continues_ = true;
@@ -254,7 +261,7 @@ class Reader {
 
   /// They would be left without a cycle where its moves are written out.
   void refuse_idle_cycle_words() {
-    for (const Word& word : words_of_line())
+    for (const Word& word : program_.words_of(program_.lines[line_]))
       if (std::string_view("QPKL").find(word.letter) != std::string_view::npos ||
           (word.letter == 'G' && word.number > 80.0 && word.number < 84.0))
         complain(word,
@@ -350,10 +357,6 @@ class Reader {
     continues_ = false;
   }
 
-  std::span<const Word> words_of_line() const {
-    const Line& line = program_.lines[line_];
-    return {program_.words.data() + line.first_word, line.word_count};
-  }
   Program& program_;
   const ReadOptions& options_;
   std::vector<Diagnostic>& wrong_;

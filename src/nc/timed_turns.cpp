@@ -70,21 +70,18 @@ class TimedTurns {
   }
 
  private:
-  std::span<const Word> words_of(const Line& line) const {
-    return {program_.words.data() + line.first_word, line.word_count};
-  }
   std::string text_of(const Word& word) const {
     return program_.text.substr(word.letter_at, word.end - word.letter_at);
   }
   const Word* feed_of(const Line& line) const {
-    const auto word = std::ranges::find(words_of(line), 'F', &Word::letter);
-    return word == words_of(line).end() ? nullptr : &*word;
+    const auto word = std::ranges::find(program_.words_of(line), 'F', &Word::letter);
+    return word == program_.words_of(line).end() ? nullptr : &*word;
   }
   const Word* feed_mode_of(const Line& line) const {
-    const auto word = std::ranges::find_if(words_of(line), [](const Word& one) {
+    const auto word = std::ranges::find_if(program_.words_of(line), [](const Word& one) {
       return one.letter == 'G' && one.number >= 93.0 && one.number <= 95.0;
     });
-    return word == words_of(line).end() ? nullptr : &*word;
+    return word == program_.words_of(line).end() ? nullptr : &*word;
   }
 
   void remember(const Line& line) {
@@ -101,7 +98,7 @@ class TimedTurns {
   }
   /// Before the first word of the line but its number.
   void insert(const Line& line, const std::string& text) {
-    const std::span<const Word> words = words_of(line);
+    const std::span<const Word> words = program_.words_of(line);
     const Word& first = words.front().letter == 'N' && words.size() > 1 ? words[1] : words.front();
     copy_to(first.letter_at);
     out_ += text;
@@ -113,12 +110,12 @@ class TimedTurns {
     std::string feed = "F";
     append_number(feed, rate, decimals_of(rate));
     if (feed_mode_of(line) == nullptr && !timed_) insert(line, "G93");
-    for (const Word& word : words_of(line)) {
+    for (const Word& word : program_.words_of(line)) {
       if (&word == feed_mode_of(line)) replace(word, "G93");
       if (&word == feed_of(line)) replace(word, feed);
     }
     if (feed_of(line) == nullptr) {
-      copy_to(words_of(line).back().end);
+      copy_to(program_.words_of(line).back().end);
       out_ += line.has_blanks ? " " + feed : feed;
     }
     timed_ = true;

@@ -13,8 +13,6 @@
 namespace trueaxis::nc {
 namespace {
 
-/// The limit of LinuxCNC's interpreter with the CR of the line's end, the shortest that is known.
-
 bool is_one_of(char letter, std::string_view letters) {
   return letters.find(letter) != std::string_view::npos;
 }
@@ -32,6 +30,7 @@ class Writer {
 
   Written write(std::span<const NewPosition> positions) {
     std::size_t next = 0;
+    auto stays = program_.unknown_rapids.begin();
     cycles_change_ = std::ranges::any_of(positions, [&](const NewPosition& one) {
       return program_.moves[one.move].cycle && changes(one);
     });
@@ -44,6 +43,7 @@ class Writer {
       if (!moves.empty())
         program_.moves[moves.front().move].cycle ? write_cycle(line, moves)
                                                  : write_block(line, moves);
+      if (stays != program_.unknown_rapids.end() && stays->line == i) leave_block(*stays++);
       skip_.pass(i);
     }
     copy_to(source_.size());
@@ -55,6 +55,13 @@ class Writer {
   void copy_to(std::size_t end) {
     out_.text.append(source_, copied_, end - copied_);
     copied_ = end;
+  }
+
+  /// A block that stays as it is takes its axes to the words of the old program.
+  void leave_block(const Move& move) {
+    change_work_offset(move.modal.work_offset);
+    for (std::size_t k = 0; k < axis_count; ++k)
+      if (has(move.named, k)) in_force_[k] = move.words[k];
   }
 
   bool changes(const NewPosition& position) const {
@@ -98,7 +105,7 @@ class Writer {
   }
 
   void begin_step(const Line& line) {
-    out_.text += line_end_of(line);
+    out_.text += program_.end_of(line);
     out_.text += line.skip_text();
     words_ = 0;
   }
@@ -129,9 +136,9 @@ class Writer {
     };
     const std::size_t begin = out_.text.size();
     const Word* last = nullptr;  // after which other axes come
-    for (const Word& word : words_of(line))
+    for (const Word& word : program_.words_of(line))
       if (axis_of(word.letter) < axis_count && word.letter != 'Z') last = &word;
-    for (const Word& word : words_of(line)) {
+    for (const Word& word : program_.words_of(line)) {
       const std::size_t axis = axis_of(word.letter);
       const bool cycle = word.letter == 'G' && word.number >= 81.0 && word.number <= 83.0;
       if (is_one_of(word.letter, "ZRQPKL") ||
@@ -205,16 +212,16 @@ class Writer {
     if (move.modal.feed_mode == FeedMode::inverse_time) append_feed_word(line);
     if (words_ == 0) return out_.text.resize(begin);  // it is where the one before is
     check_length(line, out_.text.size() - begin);
-    out_.text += line_end_of(line);
+    out_.text += program_.end_of(line);
     ++out_.inserted;
   }
 
   /// Words that the block puts into force and that its pieces need before it.
   void repeat_words(const Line& line, const Move& move) {
-    const bool has_p = std::ranges::any_of(words_of(line), [](const Word& word) {
+    const bool has_p = std::ranges::any_of(program_.words_of(line), [](const Word& word) {
       return word.letter == 'M' || (word.letter == 'G' && word.number == 64.0);
     });
-    for (const Word& word : words_of(line)) {
+    for (const Word& word : program_.words_of(line)) {
       if (is_one_of(word.letter, has_p ? "NOXYZABCIJKR" : "NOXYZABCIJKPQR")) continue;
       if (word.letter == 'F' && move.modal.feed_mode == FeedMode::inverse_time) continue;
       if (word.letter == 'M' && stops(static_cast<int>(word.number))) continue;
@@ -224,11 +231,12 @@ class Writer {
   }
 
   bool has_feed(const Line& line) const {
-    return std::ranges::find(words_of(line), 'F', &Word::letter) != words_of(line).end();
+    return std::ranges::find(program_.words_of(line), 'F', &Word::letter) !=
+           program_.words_of(line).end();
   }
 
   void append_feed_word(const Line& line) {
-    for (const Word& word : words_of(line)) {
+    for (const Word& word : program_.words_of(line)) {
       if (word.letter != 'F') continue;
       separate(line);
       out_.text += source_[word.letter_at];
@@ -270,7 +278,7 @@ class Writer {
     const Move& move = program_.moves[position.move];
     const bool arc = is_arc(move.modal.motion);
     const Word* last = last_axis_word(line);
-    for (const Word& word : words_of(line)) {
+    for (const Word& word : program_.words_of(line)) {
       const std::size_t axis = axis_of(word.letter);
       if (axis < axis_count && has(move.named, axis)) {
         replace_number(word, new_number(move, axis, position.words[axis], options_), axis);
@@ -336,33 +344,17 @@ class Writer {
   /// The last axis word, or for a circle without one, the last word that stays.
   const Word* last_axis_word(const Line& line) const {
     const Word *last = nullptr, *other = nullptr;
-    for (const Word& word : words_of(line)) {
+    for (const Word& word : program_.words_of(line)) {
       if (axis_of(word.letter) < axis_count) last = &word;
       if (is_one_of(word.letter, "NG")) other = &word;
     }
     return last != nullptr ? last : other;
   }
 
-  std::string_view line_end_of(const Line& line) const {
-    const std::size_t index = index_of(line);
-    const std::size_t next =
-        index + 1 < program_.lines.size() ? program_.lines[index + 1].begin : source_.size();
-    if (next > line.end) return source_.substr(line.end, next - line.end);
-    return index > 0 ? line_end_of(program_.lines[index - 1]) : "\n";
-  }
-
-  std::span<const Word> words_of(const Line& line) const {
-    return {program_.words.data() + line.first_word, line.word_count};
-  }
-
   /// A new word of an axis that a block moves which the control may skip would move it there.
   void check_sure(const Line& line, std::size_t axis) {
-    if (std::string why = skip_.trouble(index_of(line), axis); !why.empty())
+    if (std::string why = skip_.trouble(program_.index_of(line), axis); !why.empty())
       complain(line, std::move(why));
-  }
-
-  std::size_t index_of(const Line& line) const {
-    return static_cast<std::size_t>(&line - program_.lines.data());
   }
 
   void check_length(const Line& line, std::size_t length) {
@@ -372,7 +364,7 @@ class Writer {
                    " characters, and LinuxCNC takes 251: shorten it or ask for fewer decimals");
   }
   void complain(const Line& line, std::string why) {
-    wrong_.push_back({program_.file, index_of(line) + 1, 1, std::move(why)});
+    wrong_.push_back({program_.file, program_.index_of(line) + 1, 1, std::move(why)});
   }
 
   const Program& program_;

@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
     Codes, NcRefused,
     ::testing::Values(
         RefusedCase{"G91\nM8\nN5 X1\nY2\n", "4:4"}, RefusedCase{"G91 G53 Z0\n", "2:9"},
-        RefusedCase{"G91 G28 Z0\nX1\nG90 X1\n", "3:1 4:5"},
+        RefusedCase{"G91 G28 Z0\nX1\nG90 G1 X1\n", "3:1 4:8"},
         RefusedCase{"G28 G91 Z0.\nG30 X0 Y0\nG0 X1 Y1 Z1 A1 C1\n", "4:4"},
         RefusedCase{"G2 X1 Y1 I1\n", "2:1"}, RefusedCase{"N1 G03 X1 Y1 R5\n", "2:4"},
         RefusedCase{"G84 X1 Z-5 R2 F100\nG81 Z-3 Q1 R1\n", "2:1 3:9"},
@@ -75,17 +75,17 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Positions, NcRefused,
-    ::testing::Values(RefusedCase{"G28 Z0\nX1\nX2\nX1 Y1 Z1 A1 C1\nG30\nG1 A1\n", "3:1 7:4"},
-                      RefusedCase{"G53 G0 Z0\nG0 X1 Y1\n", "3:4"},
+    ::testing::Values(RefusedCase{"G1 G28 Z0\nX1\nX2\nZ1\nG30\nG1 A1\n", "3:1 7:4"},
+                      RefusedCase{"G53 G0 Z0\nG1 X1 Y1\n", "3:4"},
 
-                      RefusedCase{"G43 H1\nX1\nZ1\nX2\n", "3:1"},
-                      RefusedCase{"G43.4 X1 Y1 Z1\nG55\nX1 Y1\nC3\n", "4:1"},
-                      RefusedCase{"G43.4 H1\nZ5\n", "3:1"}, RefusedCase{"M30\nX1\n", "3:1"},
+                      RefusedCase{"G43 H1\nG1 X1\nZ1\nX2\n", "3:4"},
+                      RefusedCase{"G43.4 X1 Y1 Z1\nG55\nG1 X1 Y1\nC3\n", "4:4"},
+                      RefusedCase{"G43.4 H1\nG1 Z5\n", "3:4"}, RefusedCase{"M30\nX1\n", "3:1"},
                       RefusedCase{"O2\nG0 X1\n", "3:4"}));
 
 TEST(NcReader, AxisWordsBeforeAMotionAndUnknownStart) {
   EXPECT_EQ(places("X1 Y1 Z1 A1 C1\n"), "1:1");
-  EXPECT_EQ(places("G0 X1 Y1\nX2\nZ1 A0 C0\n"), "1:4");
+  EXPECT_EQ(places("G1 X1 Y1\nX2\nZ1 A0 C0\n"), "1:4");
   ReadOptions options = xyzac();
   options.start = {0.0, 0.0, 5.0, 0.0, std::nullopt, 0.0};
   EXPECT_EQ(places("G0 X1 Y1\nX2\nZ1\n", options), "");
@@ -102,7 +102,7 @@ TEST(NcReader, AfterAnotherToolXYZAreNotKnown) {
   for (const PositionMode mode : {PositionMode::axes, PositionMode::tip}) {
     options.mode = mode;
     EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT1 M6\nX2\n", options), "");
-    EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nX2\n", options), "4:1");
+    EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nG1 X2\n", options), "4:4");
     EXPECT_EQ(places("T1 M6\nG0 X1 Y1 Z1 A1 C1\nT3 M6\nX2 Y2 Z2\n", options), "");
   }
 }

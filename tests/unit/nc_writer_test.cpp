@@ -46,6 +46,17 @@ std::string split(const std::string& text, int pieces) {
   return write_program(program, positions, options).text;
 }
 
+// A post's usual way from tool to tool. X and Y are where the old program has them until the next
+// block, which has all three positions.
+TEST(NcWriter, ARapidWithAnUnknownAxisStaysAndTheNextBlockHasAllThatChanged) {
+  const std::string text =
+      "T1 M6\nG0 X1 Y1 Z1 A1 C1\nG91 G28 Z0\nT2 M6\nG90 G0 X5 Y6\nG43 H2 Z50\nX5 Y6 Z7\n";
+  EXPECT_EQ(read_program(text, "p.nc", xyzac()).unknown_rapids.size(), 1u);
+  EXPECT_EQ(moved(text, {0.5, 0, 0.25, 0, 0, 0}),
+            "T1 M6\nG0 X1.5000 Y1 Z1.2500 A1 C1\nG91 G28 Z0\nT2 M6\nG90 G0 X5 Y6\n"
+            "G43 H2 Z50.2500 X5.5000\nX5.5000 Y6 Z7.2500\n");
+}
+
 TEST(NcWriter, NumbersHaveNoExponentAndNoMinusZero) {
   const auto text = [](double value, int decimals) {
     std::string out;
