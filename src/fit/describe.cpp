@@ -270,13 +270,13 @@ double radius_U_mm(const FitResult& fit) {
   return U_mm;
 }
 
-std::string impossible_radius(const FitResult& fit, bool within_U) {
+std::string impossible_radius(const FitResult& fit, bool for_sure) {
+  const double side = for_sure ? -1.0 : 1.0;
   if (fit.surface == SurfaceKind::plane || fit.surface == SurfaceKind::own) return "";
   if (!is_diagnosed(fit.surface)) {
     for (const char* name : {"radius", "minor_radius"})
       for (const FitParameter& p : fit.parameters)
-        if (p.name == name &&
-            !(p.estimate.value > (within_U ? p.estimate.expanded(fit.coverage_factor) : 0.0)))
+        if (p.name == name && !(p.estimate.value > side * p.estimate.expanded(fit.coverage_factor)))
           return fmt::format("no part has a {} of {:.6g} mm: {}",
                              p.name == std::string("radius") ? "radius" : "tube radius",
                              p.estimate.value, mend_ball_radius);
@@ -285,7 +285,7 @@ std::string impossible_radius(const FitResult& fit, bool within_U) {
   for (const double z_mm : {fit.position_min_mm, fit.position_max_mm}) {
     const double radius_mm =
         fit.shape.radius_mm + fit.shape.tan_half_angle * (z_mm - fit.shape.axis.z_ref_mm);
-    if (!(radius_mm <= (within_U ? radius_U_mm(fit) : 0.0))) continue;
+    if (!(radius_mm <= side * radius_U_mm(fit))) continue;
     return fmt::format(
         "the part would have a radius of {:.6g} mm at Z = {:.6g} mm, which is impossible: {}",
         radius_mm, z_mm, mend_ball_radius);
@@ -380,7 +380,7 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
                            " times; parameters and axis are those of " +
                            set_up_name(set_ups.back().set_up) + ", the last");
   }
-  if (std::string note = impossible_radius(result, true); !note.empty())
+  if (std::string note = impossible_radius(result, false); !note.empty())
     result.notes.push_back(std::move(note));
   add_notes(noise, result);
 }

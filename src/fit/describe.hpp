@@ -19,9 +19,9 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
 /// U of the fitted radius, mm: a smaller one is not shown to be any. 0 where there is none.
 double radius_U_mm(const FitResult& fit);
 
-/// A radius that is not above 0, or with `within_U` not above its U, and what to do: the ball is
+/// A radius that is not above its U, or `for_sure` below 0 by its U, and what to do: the ball is
 /// larger than the path of its centre. Empty: there is none.
-std::string impossible_radius(const FitResult& fit, bool within_U);
+std::string impossible_radius(const FitResult& fit, bool for_sure);
 
 /// One to three readings so far from all others that they are a mistake (a lost decimal point): by
 /// row, with what to do. Empty: there are none, or too many for one.

@@ -177,7 +177,7 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
     }
   };
   std::string why = implausible(stream, result, refit);
-  if (why.empty() && result.status == FitStatus::converged) why = impossible_radius(result, false);
+  if (why.empty() && result.status == FitStatus::converged) why = impossible_radius(result, true);
   if (!why.empty()) refuse(result, why);
   return result;
 }

@@ -163,6 +163,8 @@ ReadingNoise estimate_noise(const JointModel& model, const Association& associat
     noise.correlated = find_correlated_noise(model, association, clip);
     if (!noise.correlated)
       noise.u_factor = std::max(noise.u_factor, spread_of_turns(model, residual, clip));
+    // aᵀCa ≤ tr C = N σ² for any unit vector a: all readings alike are the worst there is.
+    noise.u_factor = std::min(noise.u_factor, std::sqrt(n));
   }
   return noise;
 }
