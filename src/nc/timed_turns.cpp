@@ -31,7 +31,7 @@ std::map<std::uint32_t, double> rates_of(const Program& program,
   std::vector<Diagnostic> wrong;
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const Move& move = program.moves[i];
-    if (std::ranges::find(lines, move.line) == lines.end()) continue;
+    if (!std::ranges::binary_search(lines, move.line)) continue;
     std::string why;
     if (!move.continues) why = "from a position that is not known";
     if (!(move.modal.feed > 0.0)) why = "without an F";
