@@ -242,10 +242,10 @@ class NewProgram {
   void state_unknown_rapids(std::vector<std::string>& remarks) const {
     const std::vector<nc::Move>& list = task_.program.unknown_rapids;
     if (list.empty()) return;
-    remarks.push_back(
-        counted(list.size(), "rapid move stays as it is", "rapid moves stay as they are") +
-        " (first in line " + std::to_string(task_.line_of(list.front())) +
-        "): the position of an axis is not known there");
+    remarks.push_back(counted(list.size(), "rapid move stays as it is and does not count",
+                              "rapid moves stay as they are and do not count") +
+                      " (first in line " + std::to_string(task_.line_of(list.front())) +
+                      "): the position of an axis is not known there");
   }
 
   void keep_ends(ProgramCompensation& out) const {

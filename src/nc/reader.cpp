@@ -218,7 +218,8 @@ class Reader {
               .words = words_,
               .modal = state_};
     if (missing != 0) {
-      if (state_.motion == Motion::rapid && (missing & ~linear_axes) == 0) {
+      const bool carried_out = program_.lines[line_].skip == 0;
+      if (state_.motion == Motion::rapid && carried_out && (missing & ~linear_axes) == 0) {
         program_.unknown_rapids.push_back(made);
         continues_ = false;
       } else if ((missing & ~told_) != 0) {

@@ -96,10 +96,11 @@ class TimedTurns {
     out_ += text;
     copied_ = word.end;
   }
-  /// Before the first word of the line but its number.
+  /// Before the first word of the line but its number and that of a program.
   void insert(const Line& line, const std::string& text) {
     const std::span<const Word> words = program_.words_of(line);
-    const Word& first = words.front().letter == 'N' && words.size() > 1 ? words[1] : words.front();
+    const bool numbered = words.front().letter == 'N' || words.front().letter == 'O';
+    const Word& first = numbered && words.size() > 1 ? words[1] : words.front();
     copy_to(first.letter_at);
     out_ += text;
     if (line.has_blanks) out_ += ' ';

@@ -80,7 +80,8 @@ INSTANTIATE_TEST_SUITE_P(
 
                       RefusedCase{"G43 H1\nG1 X1\nZ1\nX2\n", "3:4"},
                       RefusedCase{"G43.4 X1 Y1 Z1\nG55\nG1 X1 Y1\nC3\n", "4:4"},
-                      RefusedCase{"G43.4 H1\nG1 Z5\n", "3:4"}, RefusedCase{"M30\nX1\n", "3:1"},
+                      RefusedCase{"G43.4 H1\nG1 Z5\n", "3:4"},
+                      RefusedCase{"T3 M6\n/X1 Y1\n", "3:2"}, RefusedCase{"M30\nX1\n", "3:1"},
                       RefusedCase{"O2\nG0 X1\n", "3:4"}));
 
 TEST(NcReader, AxisWordsBeforeAMotionAndUnknownStart) {
