@@ -56,7 +56,7 @@ class TimedTurns {
   std::string write() {
     for (std::size_t i = 0; i < program_.lines.size(); ++i) {
       const Line& line = program_.lines[i];
-      if (line.word_count == 0) continue;
+      if (std::ranges::all_of(program_.words_of(line), is_number)) continue;
       const auto turn = rates_.find(static_cast<std::uint32_t>(i));
       if (turn != rates_.end())
         turn_in(line, turn->second);
@@ -73,6 +73,8 @@ class TimedTurns {
   std::string text_of(const Word& word) const {
     return program_.text.substr(word.letter_at, word.end - word.letter_at);
   }
+  /// Of a block or a program: a line of nothing else puts nothing into force.
+  static bool is_number(const Word& word) { return word.letter == 'N' || word.letter == 'O'; }
   const Word* feed_of(const Line& line) const {
     const auto word = std::ranges::find(program_.words_of(line), 'F', &Word::letter);
     return word == program_.words_of(line).end() ? nullptr : &*word;
@@ -99,8 +101,7 @@ class TimedTurns {
   /// Before the first word of the line but its number and that of a program.
   void insert(const Line& line, const std::string& text) {
     const std::span<const Word> words = program_.words_of(line);
-    const bool numbered = words.front().letter == 'N' || words.front().letter == 'O';
-    const Word& first = numbered && words.size() > 1 ? words[1] : words.front();
+    const Word& first = is_number(words.front()) ? words[1] : words.front();
     copy_to(first.letter_at);
     out_ += text;
     if (line.has_blanks) out_ += ' ';

@@ -21,6 +21,8 @@ TEST(NcTimedTurns, ATurnHasItsTimeAndTheNextBlockTheFeedOfBefore) {
             start + "N1 G93 G1 C90 F4.00000\nN2 G94 F360 X2\nN3 X3\n");
   EXPECT_EQ(timed(start + "G1X2F100\nA30B40\n(c)\nG0X3\n", {2}),
             start + "G1X2F100\nG93A30B40F2.00000\n(c)\nG94F100G0X3\n");
+  EXPECT_EQ(timed(start + "G1 C90 F360\nO2\nN7\nN8 G4 P1\n", {1}),
+            start + "G93 G1 C90 F4.00000\nO2\nN7\nN8 G94 F360 G4 P1\n");
 }
 
 TEST(NcTimedTurns, TurnsInARowSwitchOnce) {
