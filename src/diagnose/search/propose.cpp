@@ -89,26 +89,6 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<Candidate>& list, std::s
   return out;
 }
 
-/// p-values averaged over what the noise may also be. With ν readings beyond the columns the first
-/// partial correlation a is known to u = 1/√ν of artanh a (Fisher). If it is underestimated, all
-/// that is slow looks significant. Three nodes of a Gauss-Hermite rule.
-void average_over_noise(const Problem& problem, const std::vector<double>& phi, double freedom,
-                        const std::vector<Hypothesis>& terms, std::vector<Candidate>& list) {
-  if (phi.empty() || list.empty()) return;
-  const std::vector<double> partials = partial_correlations(phi);
-  const double away = std::sqrt(3.0 / std::max(freedom, 1.0));
-  std::vector<double> p;
-  for (const Candidate& c : list) p.push_back(std::exp(c.log_p) * 2.0 / 3.0);
-  for (const double d : {-away, away}) {
-    std::vector<double> other = partials;
-    other[0] = std::tanh(std::atanh(other[0]) + d);
-    const std::vector<Candidate> judged =
-        Judge(problem, phi_of(other), terms)(hypotheses_of(list, list.size()));
-    for (std::size_t i = 0; i < list.size(); ++i) p[i] += std::exp(log_p_of(judged[i])) / 6.0;
-  }
-  for (std::size_t i = 0; i < list.size(); ++i) list[i].log_p = std::log(std::max(p[i], 1e-300));
-}
-
 /// The best of each effect and rank among those that explain nearly as much as any. All lines stay:
 /// at its first shape a line looks like its mirror, such as that of a spiral probed with nearly its
 /// own lead.
@@ -215,6 +195,29 @@ std::vector<Candidate> refined(Judge& judge, std::vector<Candidate> best,
 }
 
 }  // namespace
+
+void erase_chance(const Problem& problem, const Proposal& from, const std::vector<double>& phi,
+                  const std::vector<Hypothesis>& terms, std::vector<Candidate>& list) {
+  constexpr double middle = 2.0 / 3.0, beside = 1.0 / 6.0;
+  const auto passes = [&](double p) { return from.family.p_value(p) < problem.false_alarm; };
+  std::erase_if(list, [&](const Candidate& c) {
+    return !passes((phi.empty() ? 1.0 : middle) * std::exp(c.log_p));  // the rest only adds
+  });
+  if (phi.empty() || list.empty()) return;
+  const std::vector<double> partials = partial_correlations(phi);
+  const double away = std::sqrt(3.0 / std::max(from.noise_freedom, 1.0));
+  std::vector<double> p;
+  for (const Candidate& c : list) p.push_back(middle * std::exp(c.log_p));
+  for (const double d : {-away, away}) {
+    std::vector<double> other = partials;
+    other[0] = std::tanh(std::atanh(other[0]) + d);
+    const std::vector<Candidate> judged =
+        Judge(problem, phi_of(other), terms)(hypotheses_of(list, list.size()));
+    for (std::size_t i = 0; i < list.size(); ++i) p[i] += beside * std::exp(log_p_of(judged[i]));
+  }
+  std::size_t at = 0;
+  std::erase_if(list, [&](const Candidate&) { return !passes(p[at++]); });
+}
 
 Hypothesis refine(const Problem& problem, const std::vector<double>& phi,
                   const std::vector<Hypothesis>& others, const Hypothesis& candidate, double step) {
@@ -352,7 +355,6 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) co
     best.resize(std::min(best.size(), best_refined));
     to = refined(judge, std::move(best));
     for (Candidate& c : to) c.log_p = log_p_of(c);
-    average_over_noise(problem_, phi, dictionary_->noise_freedom, terms, to);
   };
   for_each_index(2, threads, [&](std::size_t k) {
     k == 0 ? refine_some(causes, out.causes) : refine_some(patterns, out.patterns);
@@ -362,9 +364,10 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) co
     return c.possible && (c.gain >= refused->gain || is_other_form(*refused, c));
   };
   if (refused != out.causes.end() && std::ranges::none_of(out.causes, explains_it))
-    out.impossible = *refused;
+    out.impossible = {*refused};
   erase_impossible(out.causes);
   out.family = now.family;
+  out.noise_freedom = dictionary_->noise_freedom;
   return out;
 }
 

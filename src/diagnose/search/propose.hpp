@@ -19,8 +19,9 @@ namespace trueaxis::diagnose_detail {
 /// The best next hypotheses after some terms, refined, best first.
 struct Proposal {
   std::vector<Candidate> causes, patterns;
-  std::optional<Candidate> impossible;  ///< the best cause of a size that cannot be
+  std::vector<Candidate> impossible;  ///< the best cause of a size that cannot be, or none
   Family family;
+  double noise_freedom = 0.0;  ///< readings beyond the columns that the noise was estimated with
 };
 
 constexpr double step_start = 0.06;  ///< of a refinement, on a scale where 1 is the range
@@ -73,6 +74,14 @@ class Proposer {
   std::unique_ptr<const Dictionary> dictionary_;
   std::deque<Asked> asked_;
 };
+
+/// Erases what chance alone may have made: by p-values averaged over what the noise may also be.
+/// With ν readings beyond the columns the first partial correlation a is known to u = 1/√ν of
+/// artanh a (Fisher). If it is underestimated, all that is slow looks significant. Three nodes of a
+/// Gauss-Hermite rule.
+/// @param from what was proposed beside `terms`; the candidates are some of it
+void erase_chance(const Problem& problem, const Proposal& from, const std::vector<double>& phi,
+                  const std::vector<Hypothesis>& terms, std::vector<Candidate>& list);
 
 /// A hypothesis refined to its own best shape together with `others`.
 Hypothesis refine(const Problem& problem, const std::vector<double>& phi,

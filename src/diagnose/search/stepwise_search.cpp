@@ -110,17 +110,16 @@ class StepwiseSearch::Engine {
     model_.impossible = nullptr;
     Proposal p = proposer_.beside(terms, model_.phi);
     model_.family = p.family;
-    const auto fails = [&](const Candidate& c) {
-      return !may_be_taken(c) || !is_whole(c) || !passes(c.log_p);
-    };
-    std::erase_if(p.causes, fails);
-    std::erase_if(p.patterns, fails);
+    for (std::vector<Candidate>* list : {&p.causes, &p.patterns, &p.impossible}) {
+      std::erase_if(*list, [&](const Candidate& c) { return !may_be_taken(c) || !is_whole(c); });
+      erase_chance(problem_, p, model_.phi, terms, *list);
+    }
     const double cause = p.causes.empty() ? 1e300 : p.causes[0].criterion;
     const double pattern = p.patterns.empty() ? 1e300 : p.patterns[0].criterion + catalogue_first;
     // If only an impossible size explains something, the next best is not the cause either.
-    if (p.impossible && !fails(*p.impossible) &&
-        p.impossible->criterion + catalogue_first < std::min(cause, pattern)) {
-      model_.impossible = p.impossible->hypothesis.effect;
+    if (!p.impossible.empty() &&
+        p.impossible[0].criterion + catalogue_first < std::min(cause, pattern)) {
+      model_.impossible = p.impossible[0].hypothesis.effect;
       return std::nullopt;
     }
     if (p.causes.empty() && p.patterns.empty()) return std::nullopt;
