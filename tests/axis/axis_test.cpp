@@ -11,7 +11,7 @@ namespace trueaxis::axis {
 namespace {
 
 constexpr std::uint64_t seed = 4100;
-constexpr int streams = 16;
+constexpr int streams = 10;
 
 struct Sums {
   double ideal = 0.0, stated = 0.0;
@@ -31,9 +31,9 @@ Sums run(Group group) {
 TEST(AxisStudy, SeveralSmallEffectsMakeTheAxisNoWorse) {
   const Sums sums = run(Group::mixture);
   EXPECT_LT(std::sqrt(sums.stated / sums.ideal), 1.05) << "seed " << seed;
-  // The four numbers of a stream go together: of 16 streams covered with probability 0.935 each
-  // (the goal's lower end), fewer than 12 are with a probability of 0.3 %.
-  EXPECT_GE(sums.covered, 4 * 12) << "seed " << seed;
+  // The four numbers of a stream go together: of 10 streams covered with probability 0.935 each
+  // (the goal's lower end), fewer than 7 are with a probability of 0.3 %.
+  EXPECT_GE(sums.covered, 4 * 7) << "seed " << seed;
 }
 
 // Of a normal error the score is least for the true u (Gneiting and Raftery 2007, Eq. 43): at ±2 σ

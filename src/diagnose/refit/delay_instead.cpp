@@ -70,7 +70,8 @@ std::optional<DelayInstead> delay_instead(const IdealModel& ideal, const Relinea
   const LinearisationPoint point = linearise_at(stream, clampings_of(about, ideal.ball_mm),
                                                 first.point.base, first.point.bore, first.threads);
   const std::vector<double> deviation_mm = deviation_from(stream, point, first.threads);
-  const Problem late = with(first, mask, point, deviation_mm);
+  Problem late = with(first, mask, point, deviation_mm);
+  late.most_terms = std::min(late.most_terms, terms.size() + 1);  // more are not simpler
   std::vector<Hypothesis> besides = CoarseToFineSearch(late).model.terms;
   std::erase_if(besides, moves_part);
 

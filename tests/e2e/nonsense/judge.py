@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Streams of nonsense with known truth, made and judged without a line of the program.
 
-    judge.py COMMAND [NAME…] [--part K/N]    runs fit, diagnose, run and form on every stream (of
-                                             every N-th from the K-th) and prints a table
+    judge.py COMMAND [NAME…] [--part K/N]    runs fit, run and form on every stream (of every N-th
+                                             from the K-th) and prints a table; diagnose, whose
+                                             search run has too, on every second, and on those named
 
 Of each answer the axis at both ends of the data is judged: refused (none is printed), right (within
 1.5 U, which is 3 u), unseen (no reading of the stream shows it, and the answer says so) or WRONG. Of
@@ -75,15 +76,18 @@ def judge_form(out, code, path, round_mm):
     return ("right" if off <= 1.5 * U + 0.004 else "WRONG"), word
 
 
-def try_one(command, entry):
+def try_one(command, entry, with_diagnose):
     name, make, surface, ordinary, truth, round_mm, unseen = entry
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "part.csv"), "w") as file:
             file.write(make().text())
         row = {}
-        for what, line in (("fit", ["fit", "part.csv", "--surface", surface]),
-                           ("diagnose", ["diagnose", "part.csv", "--surface", surface]),
-                           ("run", ["run", "part.csv", "-o", "out"])):
+        lines = {"fit": ["fit", "part.csv", "--surface", surface],
+                 "diagnose": ["diagnose", "part.csv", "--surface", surface],
+                 "run": ["run", "part.csv", "-o", "out"]}
+        if not with_diagnose:
+            del lines["diagnose"]
+        for what, line in lines.items():
             out, code = run(command, folder, line)
             verdict, words = judge(truth, "" if what == "fit" else unseen, out, code)
             if what == "fit" and unseen and verdict == "WRONG":
@@ -110,7 +114,8 @@ def main():
     wanted = [case for case in CASES if not words or any(word in case[0] for word in words)]
     wrong = 0
     with ThreadPoolExecutor(2) as pool:
-        for name, row in pool.map(lambda one: try_one(command, one), wanted[begin::stride]):
+        asked = wanted[begin::stride]
+        for name, row in pool.map(lambda k: try_one(command, asked[k], words or k % 2), range(len(asked))):
             print(f"{name:34}", *(f"{what}: {row[what][0]:8}({row[what][1]})" for what in row))
             for what, (verdict, _, why) in row.items():
                 wrong += "WRONG" in verdict
