@@ -15,7 +15,6 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr double implausible = 1e-3;  // probability, as of any class
-constexpr double linear = 0.1;        // rad: the second order of an eccentricity is 0.5 % of it
 
 bool moves_part(const Hypothesis& h) { return h.effect && is_step(h.effect->term); }
 
@@ -43,6 +42,19 @@ double count_of(const std::vector<Hypothesis>& terms) {
   return static_cast<double>(columns_of(terms));
 }
 
+/// Whether the second order of what turns that far is worth a parameter (Schwarz 1978): a slip has
+/// it, and the column of a delay has not.
+bool bends(double turned_rad, const IdealModel& ideal, const Joint& found) {
+  const LinearisationPoint& point = ideal.point;
+  const Axis& axis = ideal.fit.axis.axis;
+  const auto [x_mm, y_mm] = axis.at(point.z_mid_mm);
+  const double runs_mm = point.base.face ? point.end_mm() * std::hypot(axis.slope_x, axis.slope_y)
+                                         : std::hypot(x_mm, y_mm);
+  const double second_mm = 0.5 * turned_rad * turned_rad * runs_mm;
+  const auto rows = static_cast<double>(found.equations.count());
+  return 0.5 * rows * std::pow(second_mm / found.sigma_mm, 2) > std::log(rows);
+}
+
 }  // namespace
 
 std::optional<DelayInstead> delay_instead(const IdealModel& ideal, const RelinearisedFit& found) {
@@ -57,7 +69,8 @@ std::optional<DelayInstead> delay_instead(const IdealModel& ideal, const Relinea
   // Shorter ones are seen by their columns, but for a slip that turns the part farther than those
   // reach.
   const bool ordinary = std::abs(out.delay_s) <= delay->parameters.front().high;
-  const bool turns = passes.turned_apart(out.delay_s) > linear && !std::isnan(onset_s);
+  const bool turns =
+      !std::isnan(onset_s) && bends(passes.turned_apart(out.delay_s), ideal, found.joint());
   if (ideal.point.has_time && ordinary && !turns) return {};
 
   const Problem& first = ideal.problem;

@@ -23,11 +23,10 @@ constexpr std::size_t at_change = 2;  // readings on each side that may belong t
 /// [1, z, cos C, sin C, z cos C, z sin C | reading]
 using Sums = Eigen::Matrix<double, 7, 7>;
 
-/// The columns at C − angle and z − shift, made of those at C and z.
+/// The columns at C − angle and z − shift, made of those at C and z, but for a constant.
 Sums turning(double angle, double shift) {
   const double c = std::cos(angle), s = std::sin(angle);
   Sums out = Sums::Identity();
-  out(0, 1) = -shift;
   out.block<2, 2>(2, 2) << c, -s, s, c;
   out.block<2, 2>(4, 4) = out.block<2, 2>(2, 2);
   out.block<2, 2>(2, 4) = -shift * out.block<2, 2>(2, 2);
@@ -118,6 +117,9 @@ double TurnedPasses::best(const ObservationMask& mask) const {
       own += row * row.transpose();
       count += 1.0;
     }
+    // Each has a zero of its own: what a play of the slide leaves between them is no delay.
+    if (const double n = own(0, 0); n > 0.0) own -= Sums(own.col(0) * own.row(0) / n);
+    own(0, 0) = 1.0;
   }
   const auto left = [&](double delay_s) {
     Sums all = Sums::Zero();
