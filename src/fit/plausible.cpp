@@ -68,8 +68,9 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
   const double limit_mm =
       std::max(most_left_mm + most_left_per_radius * largest_radius_mm(stream), stated_mm);
   const std::string remedy =
-      "Check that columns, units and surface are right. If the sensor really scatters like that, "
-      "state it: '# sensor_noise: 1 mm'";
+      "Check that columns, units and surface are right. If the part has grooves or slots, exclude "
+      "them (--loss tukey). If the sensor really scatters like that, state it: "
+      "'# sensor_noise: 1 mm'";
   // A keyway or a chip is not scatter: the bulk of the residuals counts.
   if (fit.rms_mm > limit_mm && mad_sigma(fit.residual_mm) > limit_mm) {
     const std::string other = other_surface(stream, fit, refit);

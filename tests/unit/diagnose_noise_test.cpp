@@ -8,6 +8,7 @@
 #include <set>
 
 #include "diagnose/regression/noise.hpp"
+#include "diagnose/regression/outliers.hpp"
 #include "diagnose/search/dictionary.hpp"
 #include "support/diagnose_bench.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/regression/noise.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -10,16 +8,12 @@
 
 #include "base/threads.hpp"
 #include "math/statistics.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-constexpr double far_out = 8.0;        // MAD σ; a real local form peaks at 4.5 σ
-constexpr double clings = 3.0;         // next to a reading far out
-constexpr std::size_t most_alone = 3;  // readings in a row; more are a dent or an edge
 constexpr std::size_t noise_chunk = 512;
 constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matters
 constexpr std::size_t least_rows = 200;
@@ -39,30 +33,6 @@ void fill_rows(const LinearisationPoint& point, std::span<const Hypothesis> term
       fill(h, point, side, own);
     }
   });
-}
-
-/// Which residuals are not far out, nor next to one that is.
-std::vector<char> near_of(const std::vector<double>& left, double sigma) {
-  const auto outside = [&](std::size_t i, double times) {
-    return std::abs(left[i]) > times * sigma;
-  };
-  std::vector<char> used(left.size(), 1);
-  for (std::size_t i = 0; i < used.size(); ++i) used[i] = !outside(i, far_out);
-  for (std::size_t i = 1; i < used.size(); ++i)
-    if (!used[i - 1] && outside(i, clings)) used[i] = 0;
-  for (std::size_t i = used.size() - 1; i-- > 0;)
-    if (!used[i + 1] && outside(i, clings)) used[i] = 0;
-  return used;
-}
-
-/// Too many are not outliers: the surface is another one.
-bool too_many(const std::vector<char>& used) {
-  return static_cast<std::size_t>(std::ranges::count(used, 0)) * 3 > used.size();
-}
-
-Rejected rejected(std::size_t i, double left_mm, double sigma_mm) {
-  return {i + 1, fmt::format("{:.3g} µm off, {:.1f} σ", left_mm / mm_per_um,
-                             std::abs(left_mm) / sigma_mm)};
 }
 
 }  // namespace
@@ -104,64 +74,6 @@ std::vector<double> remainder(const LinearisationPoint& point, std::span<const d
   const bool small = point.size() < 20'000;  // a thread costs more than it saves
   for_each_index((point.size() + noise_chunk - 1) / noise_chunk, small ? 1 : threads, work);
   return out;
-}
-
-std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
-                                    std::span<const Hypothesis> basis,
-                                    std::span<const double> deviation_mm, ObservationMask& mask,
-                                    int threads) {
-  std::vector<double> left(deviation_mm.begin(), deviation_mm.end());
-  double sigma = 0.0;
-  std::size_t masked = 0;
-  for (int round = 0; round < 6; ++round) {
-    sigma = mad_sigma(left);
-    std::vector<char> used = near_of(left, sigma);
-    if (too_many(used)) break;
-    const bool same = round > 0 && used == mask.used;
-    mask.used = std::move(used);
-    masked = static_cast<std::size_t>(std::ranges::count(mask.used, 0));
-    if (same || (round == 0 && masked == 0 && point.size() < least_rows)) break;
-    mask.find_runs(point);
-    NormalEquations equations(point, mask, deviation_mm, {}, threads);
-    Columns all = equations.base();
-    for (const Columns& own : equations.append(basis))
-      all.insert(all.end(), own.begin(), own.end());
-    left =
-        remainder(point, deviation_mm, basis, solve(equations.total(), all).coefficients, threads);
-  }
-  mask.find_runs(point);
-  std::vector<Rejected> list;
-  for (std::size_t i = 0; i < point.size() && masked > 0; ++i) {
-    if (!mask.used[i]) list.push_back(rejected(i, left[i], sigma));
-  }
-  return list;
-}
-
-std::vector<Rejected> mask_far_from(const LinearisationPoint& point,
-                                    const std::vector<double>& left_mm, ObservationMask& mask) {
-  std::vector<double> counting;
-  for (std::size_t i = 0; i < left_mm.size(); ++i)
-    if (mask.used[i]) counting.push_back(left_mm[i]);
-  const double sigma = mad_sigma(counting);
-  const std::vector<char> near = near_of(left_mm, sigma);
-  std::vector<char> used = mask.used;
-  std::vector<Rejected> list;
-  const auto out = [&](std::size_t i) { return !near[i] || !mask.used[i]; };
-  for (std::size_t i = 0, end = 0; i < near.size(); i = end + 1) {
-    for (end = i; end < near.size() && out(end); ++end) continue;
-    const bool known =
-        std::any_of(mask.used.begin() + static_cast<long>(i),
-                    mask.used.begin() + static_cast<long>(end), [](char one) { return !one; });
-    if (end == i || end - i > most_alone || known) continue;
-    for (std::size_t k = i; k < end; ++k) {
-      used[k] = 0;
-      list.push_back(rejected(k, left_mm[k], sigma));
-    }
-  }
-  if (list.empty() || too_many(used)) return {};
-  mask.used = std::move(used);
-  mask.find_runs(point);
-  return list;
 }
 
 /// Readings enough for the noise. A block of a long stream is cut: whole blocks would be more than

@@ -6,7 +6,6 @@
 
 #include "diagnose/regression/normal_equations.hpp"
 #include "math/autoregression.hpp"
-#include "trueaxis/fit.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -20,19 +19,6 @@ Eigen::MatrixXd columns_of_rows(const LinearisationPoint& point, std::span<const
 std::vector<double> remainder(const LinearisationPoint& point, std::span<const double> deviation_mm,
                               std::span<const Hypothesis> terms, const Eigen::VectorXd& solution,
                               int threads = 1);
-
-/// Masks readings farther than 8 robust σ from the surface with what `basis` lets it deviate by,
-/// and what clings to them, until nothing changes. @returns why, a line a reading (Eq. 63).
-std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
-                                    std::span<const Hypothesis> basis,
-                                    std::span<const double> deviation_mm, ObservationMask& mask,
-                                    int threads = 1);
-
-/// Masks as well one to three readings in a row as far from a model that was found: what it
-/// explains hid them before.
-/// @param left_mm readings less the model @returns those that are new
-std::vector<Rejected> mask_far_from(const LinearisationPoint& point,
-                                    const std::vector<double>& left_mm, ObservationMask& mask);
 
 /// Autoregressions of the noise after base, basis and terms, whose products without the terms are
 /// made once. By restricted maximum likelihood (the columns are integrated out, so that fitting

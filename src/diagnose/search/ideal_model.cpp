@@ -10,6 +10,7 @@
 #include "base/threads.hpp"
 #include "diagnose/geometry/condense.hpp"
 #include "diagnose/regression/noise.hpp"
+#include "diagnose/regression/outliers.hpp"
 #include "diagnose/search/dictionary.hpp"
 #include "diagnose/search/scan_steps.hpp"
 #include "math/statistics.hpp"

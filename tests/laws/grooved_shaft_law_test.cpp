@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "laws/turned_cylinder.hpp"
+#include "trueaxis/units.hpp"
+
+/// Shafts from which up to 28 % of the probed surface is cut away. A groove was noise to the
+/// diagnosis, which was certain of an ideal cylinder and had the axis 35 µm off; slots were motion
+/// of a bearing's cage.
+namespace trueaxis::testing {
+namespace {
+
+using namespace virtual_lathe;
+
+/// Readings are less by the depth where `is_cut(C of the part, Z)`.
+template <class Where>
+ProbeStream cut_away(const Scenario& scenario, double depth_mm, Where is_cut) {
+  ProbeStream out = simulate(scenario);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (is_cut(out.c_rad[i], out.position_mm[i])) out.reading_mm[i] -= depth_mm;
+  return out;
+}
+
+void expect_axis_of_lands(const Scenario& scenario, const ProbeStream& cut) {
+  const Diagnosis of_lands = diagnosed_cylinder(cut);
+  EXPECT_EQ(of_lands.verdict, DiagnosisVerdict::ideal);
+  expect_axis_after(scenario, 0.0, 0.0, 30.0, of_lands);
+  EXPECT_NEAR(of_lands.noise.sigma_mm, scenario.noise.sigma_mm,
+              4.0 * scenario.noise.sigma_mm / std::sqrt(2.0 * 500.0));  // at least 500 readings
+}
+
+TEST(GroovedShaft, HasTheAxisOfItsLands) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    const Scenario scenario = turned_cylinder(seed, 20.0, 0.0005);
+    for (const double depth_mm : {0.05, 0.3})
+      expect_axis_of_lands(scenario, cut_away(scenario, depth_mm, [](double, double z_mm) {
+                             const double from_a_groove = std::abs(std::remainder(z_mm - 4.0, 5.5));
+                             return from_a_groove < 0.75;  // five grooves: 27 %
+                           }));
+  }
+}
+
+TEST(SlottedShaft, HasTheAxisOfItsLands) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    const Scenario scenario = turned_cylinder(seed, 20.0, 0.0005);
+    for (const double depth_mm : {0.1, 0.5})
+      expect_axis_of_lands(scenario, cut_away(scenario, depth_mm, [](double c_rad, double) {
+                             return std::abs(std::remainder(c_rad, two_pi / 5.0)) < two_pi / 36.0;
+                           }));  // five slots of 20°: 28 %
+  }
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
