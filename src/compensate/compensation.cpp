@@ -277,10 +277,6 @@ class NewProgram {
   }
 
   void find_turns(std::span<const nc::NewPosition> positions) {
-    const auto moves_tip = [](const nc::AxisValues& a, const nc::AxisValues& b) {
-      constexpr double still_mm = 1e-9;
-      return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > still_mm;
-    };
     const auto written = [&](const nc::NewPosition& position) {
       return nc::as_written(moves_[position.move], position.words, task_.write);
     };
@@ -290,16 +286,11 @@ class NewProgram {
       if (i == 0 || modal.motion != nc::Motion::feed || moves_[i].cycle ||
           modal.feed_mode == nc::FeedMode::inverse_time ||
           modal.work_offset != moves_[i - 1].modal.work_offset ||
-          moves_tip(moves_[i].words, moves_[i - 1].words) ||
-          !moves_tip(written(positions[n]), written(positions[n - 1])) ||
-          !turns(moves_[i - 1].words, moves_[i].words))
+          !turns_alone(moves_[i - 1].words, moves_[i].words) ||
+          turns_alone(written(positions[n - 1]), written(positions[n])))
         continue;
       if (turns_.empty() || turns_.back() != moves_[i].line) turns_.push_back(moves_[i].line);
     }
-  }
-
-  static bool turns(const nc::AxisValues& from, const nc::AxisValues& to) {
-    return !std::equal(from.begin() + 3, from.end(), to.begin() + 3);
   }
 
   const CompensationTask& task_;
