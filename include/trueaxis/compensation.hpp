@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trueaxis/machine.hpp"
+#include "trueaxis/reason.hpp"
 
 /// A program of a control rewritten so that a machine with errors moves the tool where a machine
 /// without would (docs/reference/nc.md).
@@ -96,6 +97,7 @@ struct ProgramCompensation {
   std::vector<ErrorAlone> by_error;       ///< the largest first
   std::optional<LargestInProgram> u_tip;  ///< standard uncertainty, where the errors have u
   std::vector<std::string> remarks;       ///< what it assumes of the control
+  Reasons reservations;                   ///< what the largest deviations do not count or tell
   std::vector<ProgramEnd> ends;           ///< of every move that is reached, where they are wanted
 
   /// The largest deviation of the actual tip on the whole path, ends of blocks and between them,
@@ -104,6 +106,8 @@ struct ProgramCompensation {
   /// Whether a block or the whole path is further off than it was: such a program is not an
   /// improvement and must not replace the old one.
   bool comes_out_worse() const;
+  /// Whether the largest error of direction is larger than it was, by more than its rounding.
+  bool direction_comes_out_worse() const;
 };
 
 /// Reads the program `text` (called `file` in diagnostics) and compensates every position.

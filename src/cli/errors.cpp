@@ -64,8 +64,9 @@ std::string loss_line(const ErrorsArguments& options, const Machine& machine,
   const SamplingLoss loss =
       sampling_loss(machine, errors, *sign_of(options.output_sign), options.points);
   return fmt::format(
-      "table  {} points an axis, linear between them: at most {:.2g} µm and {:.2g} µrad off the "
-      "errors; more --points lose less\n",
+      "table  {} points an axis, linear between them: each error is off by at most {:.2g} µm or "
+      "{:.2g} µrad, and the tip by more, as errors add up and an angle acts at its lever; more "
+      "--points lose less\n",
       options.points, loss.length_mm / mm_per_um, 1e6 * loss.angle_rad);
 }
 

@@ -13,6 +13,7 @@
 #include "base/threads.hpp"
 #include "compensate/between.hpp"
 #include "compensate/block_end.hpp"
+#include "compensate/reservations.hpp"
 #include "machine/held_axes.hpp"
 #include "nc/mark.hpp"
 #include "nc/timed_turns.hpp"
@@ -144,8 +145,8 @@ class NewProgram {
         static_cast<std::size_t>(std::ranges::count(moves_, false, &nc::Move::inserted));
     rank(out, tally);
     state_skipped(out.remarks);
-    state_unknown_rapids(out.remarks);
     list_worse(out.worse);
+    out.reservations = reservations_of(task_.program, task_.options, out);
     if (task_.options.keep_ends) keep_ends(out);
     if (out.unreachable.empty()) write(out);
     return out;
@@ -239,15 +240,6 @@ class NewProgram {
         "): TrueAxis assumes that the control carries them out");
   }
 
-  void state_unknown_rapids(std::vector<std::string>& remarks) const {
-    const std::vector<nc::Move>& list = task_.program.unknown_rapids;
-    if (list.empty()) return;
-    remarks.push_back(counted(list.size(), "rapid move stays as it is and does not count",
-                              "rapid moves stay as they are and do not count") +
-                      " (first in line " + std::to_string(task_.line_of(list.front())) +
-                      "): the position of an axis is not known there");
-  }
-
   void keep_ends(ProgramCompensation& out) const {
     out.ends.reserve(moves_.size());
     for (std::size_t i = 0; i < moves_.size(); ++i) {
@@ -277,10 +269,6 @@ class NewProgram {
   }
 
   void find_turns(std::span<const nc::NewPosition> positions) {
-    const auto moves_tip = [](const nc::AxisValues& a, const nc::AxisValues& b) {
-      constexpr double still_mm = 1e-9;
-      return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > still_mm;
-    };
     const auto written = [&](const nc::NewPosition& position) {
       return nc::as_written(moves_[position.move], position.words, task_.write);
     };
@@ -290,16 +278,11 @@ class NewProgram {
       if (i == 0 || modal.motion != nc::Motion::feed || moves_[i].cycle ||
           modal.feed_mode == nc::FeedMode::inverse_time ||
           modal.work_offset != moves_[i - 1].modal.work_offset ||
-          moves_tip(moves_[i].words, moves_[i - 1].words) ||
-          !moves_tip(written(positions[n]), written(positions[n - 1])) ||
-          !turns(moves_[i - 1].words, moves_[i].words))
+          !turns_alone(moves_[i - 1].words, moves_[i].words) ||
+          turns_alone(written(positions[n - 1]), written(positions[n])))
         continue;
       if (turns_.empty() || turns_.back() != moves_[i].line) turns_.push_back(moves_[i].line);
     }
-  }
-
-  static bool turns(const nc::AxisValues& from, const nc::AxisValues& to) {
-    return !std::equal(from.begin() + 3, from.end(), to.begin() + 3);
   }
 
   const CompensationTask& task_;
@@ -345,6 +328,9 @@ LargestInProgram ProgramCompensation::off_after() const {
 }
 bool ProgramCompensation::comes_out_worse() const {
   return !worse.empty() || off_after().value > stated_to * off_before().value + model_mm;
+}
+bool ProgramCompensation::direction_comes_out_worse() const {
+  return after.direction.value > stated_to * before.direction.value + rounding.direction.value;
 }
 
 ProgramCompensation compensate_program(const MachineModel& model, std::string text,

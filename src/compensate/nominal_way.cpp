@@ -8,14 +8,26 @@
 
 namespace trueaxis {
 
+namespace {
+
+/// The largest way of axes from `first` to before `last`.
+double most_of(const AxisPositions& from, const AxisPositions& to, std::size_t first,
+               std::size_t last) {
+  double most = 0.0;
+  for (std::size_t k = first; k < last; ++k) most = std::max(most, std::abs(to[k] - from[k]));
+  return most;
+}
+
+}  // namespace
+
+bool turns_alone(const AxisPositions& from, const AxisPositions& to) {
+  constexpr double still_mm = 1e-9;
+  return most_of(from, to, 3, axis_count) > 0.0 && most_of(from, to, 0, 3) < still_mm;
+}
+
 bool means_own_way(const AxisPositions& from, const AxisPositions& to) {
-  constexpr double line_rad = 20.0 * rad_per_deg, still_mm = 1e-9;
-  double most_rad = 0.0, most_mm = 0.0;
-  for (std::size_t k = 0; k < axis_count; ++k) {
-    double& most = is_rotary(static_cast<AxisName>(k)) ? most_rad : most_mm;
-    most = std::max(most, std::abs(to[k] - from[k]));
-  }
-  return most_rad > line_rad || (most_rad > 0.0 && most_mm < still_mm);
+  constexpr double line_rad = 20.0 * rad_per_deg;
+  return most_of(from, to, 3, axis_count) > line_rad || turns_alone(from, to);
 }
 
 NominalWay::NominalWay(const CompensationTask& task, const nc::Move& move,

@@ -14,6 +14,9 @@ inline AxisPositions mix(const AxisPositions& a, const AxisPositions& b, double 
   return out;
 }
 
+/// Whether a move turns rotary axes and moves no linear one, by its axes or by its words.
+bool turns_alone(const AxisPositions& from, const AxisPositions& to);
+
 /// Whether a block whose axes go evenly means the way of the machine and no straight line: it turns
 /// rotary axes alone, or one of them by more than 20°. The line is then 1.5 % of the radius off.
 bool means_own_way(const AxisPositions& from, const AxisPositions& to);

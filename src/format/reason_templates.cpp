@@ -308,6 +308,16 @@ std::string_view template_of(ReasonCode code) {
       {program_worse,
        "the new program is off by {after:um:two} µm on its path, the old one by "
        "{before:um:two} µm; {remedies}"},
+      {rapids_not_counted,
+       "not counted: rapid moves with an unknown axis, which stay as they are ({moves::.0f}, from "
+       "line {line::.0f})"},
+      {ways_not_counted,
+       "counted at their end only: cutting moves from an unknown position ({moves::.0f}, from line "
+       "{line::.0f})"},
+      {direction_worse,
+       "the tool's direction comes out worse: {after:deg:.2g}° for {before:deg:.2g}° (line "
+       "{line::.0f})<; {remedies}>"},
+      {correct_all_rotary, "--rotary all (in a job [program] rotary) corrects it"},
       {found_not_measured_there,
        "{effect} was found, {@beyond_measured}: its size beyond that is not known; measure where "
        "the part is cut"},
@@ -328,8 +338,7 @@ std::string_view template_of(ReasonCode code) {
        "line {line::.0f} cuts with a tool of {length::.6g} mm, {beyond::.3g} mm from the measured "
        "lengths: a tilt of the spindle of 0.2 mrad, which they do not show, would move its tip by "
        "{moved:um:.3g} µm"},
-      {place_of_part_unknown,
-       "The place of the part as a whole is not known, as the place of a ball is not<: {parts}>"},
+      {place_of_part_unknown, "The place of the part as a whole is not known<: {parts}>"},
       {one_tool_length, "One tool length does not show the direction of the spindle<: {parts}>"},
       {of_the_part_alone,
        "the numbers apply to the part without this place, and hold once its zero point is probed "

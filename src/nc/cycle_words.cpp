@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nc/cycle_words.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -126,7 +128,9 @@ std::string CycleWords::trouble(const Block& block, const ModalState& state, con
   if (!r_mm_) return "a canned cycle without R: say where its feed begins";
   if (!z_mm_) return "a canned cycle without Z: say how deep it goes";
   if (incremental_ != state.incremental)
-    return "G90 and G91 were exchanged within a canned cycle: give its R and Z in this block";
+    return "G90 and G91 were exchanged within a canned cycle, and controls differ in what its "
+           "levels then are: give R and Z in this block" +
+           levels_as_words(block, state);
   if (block.word('K') != nullptr && block.word('L') != nullptr)
     return "a canned cycle has both K and L: keep one";
   const Word* const repeats = repeats_of(block);
@@ -134,6 +138,16 @@ std::string CycleWords::trouble(const Block& block, const ModalState& state, con
                               repeats->number == std::floor(repeats->number)))
     return "controls do not agree about this number of repeats: write 1 to 9999";
   return "";
+}
+
+std::string CycleWords::levels_as_words(const Block& block, const ModalState& state) const {
+  if (block.word('R') != nullptr || block.word('Z') != nullptr) return "";
+  const double r_mm = *r_mm_ + (incremental_ ? initial_mm_ : 0.0);
+  const double z_mm = *z_mm_ + (incremental_ ? r_mm : 0.0);
+  const double unit_mm = state.inch ? mm_per_inch : 1.0;
+  return fmt::format(", R{:.9g} Z{:.9g} for the levels of before",
+                     (r_mm - (state.incremental ? initial_mm_ : 0.0)) / unit_mm,
+                     (z_mm - (state.incremental ? r_mm : 0.0)) / unit_mm);
 }
 
 Cycle CycleWords::cycle(const Block& block, const ModalState& state, const AxisValues& from) const {

@@ -59,6 +59,9 @@ class CycleWords {
   std::uint32_t dwell() const { return dwell_; }       ///< index of P, Move::no_dwell: none
 
  private:
+  /// ", R-98 Z-14.5 for the levels of before": as the block would have to give them.
+  std::string levels_as_words(const Block& block, const ModalState& state) const;
+
   double initial_mm_ = 0.0, peck_mm_ = 0.0;
   std::optional<double> r_mm_, z_mm_;  ///< as written
   bool incremental_ = false;           ///< R and Z were written under G91

@@ -66,7 +66,7 @@ std::string_view why_not_g(int g_tenths);
 /// The same of an M code that hides moves or blocks; "" for one that is read.
 std::string_view why_not_m(int m);
 
-/// Why M47 and M99 P are not read.
+/// Why M47, M96 and M99 P are not read.
 inline constexpr std::string_view jump =
     "goes on at another block: write the blocks in the order in which they are carried out";
 

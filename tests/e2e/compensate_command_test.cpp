@@ -200,6 +200,41 @@ TEST_F(CompensateCommand, SeesAnErrorThatBendsBetweenItsPieces) {
   EXPECT_TRUE(contains(done.out + done.err, "more pieces")) << done.out << done.err;
 }
 
+// X0W alone takes the tip 100 µm off where line 5 leaves it, under "0.06 µm on the whole path".
+TEST_F(CompensateCommand, TheFirstLineSaysWhatItDoesNotCount) {
+  const CommandStreams done = compensate(
+      "p.nc", "T1 M6\nG0 X1 Y1 Z1 A1 C1\nG91 G28 Z0\nT2 M6\nG90 G0 X5 Y6\nG1 Z3 F100\nX6\n",
+      of_trunnion + "-o out.nc --json r.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const std::string line = std::regex_replace(done.out, std::regex("\n +"), " ");
+  EXPECT_FALSE(contains(line, "whole path")) << line;
+  for (const char* const said : {"(1, from line 5)", "unknown position (1, from line 6)"})
+    EXPECT_LT(line.find(said), line.find("next ")) << said << line;
+  const auto reserved = result("r.json").at("reserved");
+  ASSERT_EQ(reserved.size(), 2u);
+  EXPECT_EQ(reserved[0].at("code"), "rapids_not_counted");
+  EXPECT_EQ(reserved[1].at("code"), "ways_not_counted");
+  EXPECT_EQ(value_of(reserved[1].at("numbers").at("line")), 6);
+}
+
+// A keeps what was right at C-100, and C what was right at A3.
+TEST_F(CompensateCommand, TheFirstLineWarnsOfADirectionThatComesOutWorse) {
+  const std::string text = "G0 X10 Y1 Z1 A3 C-100\nG0 A-30\nG1 X50 F100\n";
+  CommandStreams done = compensate("p.nc", text, of_trunnion + "-o out.nc --json r.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const std::string line = std::regex_replace(done.out, std::regex("\n +"), " ");
+  EXPECT_LT(line.find("comes out worse"), line.find("next ")) << line;
+  const auto json = result("r.json");
+  ASSERT_EQ(json.at("reserved").size(), 1u);
+  EXPECT_EQ(json.at("reserved")[0].at("code"), "direction_worse");
+  EXPECT_EQ(json.at("reserved")[0].at("remedies")[0].at("code"), "correct_all_rotary");
+  EXPECT_GT(value_of(json.at("error_after").at("direction")),
+            1.5 * value_of(json.at("error_before").at("direction")));
+  done = compensate("p.nc", text, of_trunnion + "-o all.nc --json all.json --rotary all");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(result("all.json").at("reserved").empty()) << done.out;
+}
+
 TEST_F(CompensateCommand, SaysWhichBlocksMayBeSkipped) {
   const CommandStreams done = compensate(
       "p.nc", "G1 X0 Y0 Z0 A0 C0 F500\n/3 X9 Y0 Z0 A0 C0\n/X10 Y0 Z0 A0 C0\nX1 Y2 Z0 A0 C0\n",

@@ -144,7 +144,8 @@ TEST_F(DrillingCycles, RefusesWhatControlsDisagreeAbout) {
       {"G81 X1 Z-5 R2 P1", "P has no meaning"},
       {"G81 F100", "without a hole"},
       {"G84 X1 Z-5 R2", "canned cycle that is not read"},
-      {"G81 X1 Z-5 R2\nG91 X5", "G90 and G91 were exchanged within a canned cycle"},
+      {"G81 X1 Z-5 R2\nG91 X5 K3", "R-98 Z-7 for the levels of before"},
+      {"G91 G81 X1 Z-5 R-98\nG90 X5", "R2 Z-3 for the levels of before"},
       {"G91 G81 X1 Z-5 R-98\nG90 X5 R2", "G90 and G91 were exchanged within a canned cycle"},
       {"G81 X1 Z-5 R2\nG80\nX5", "axis words before G0 or G1"}};
   for (const auto& [block, why] : wrong) {

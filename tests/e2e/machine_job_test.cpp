@@ -112,6 +112,25 @@ TEST_F(MachineJobCommand, TheToleranceDecides) {
   EXPECT_FALSE(there("out/blade_compensated.nc")) << "an earlier one must not be run any more";
 }
 
+// The first cut of this blade has no known way, and the verdict is of the tip: its direction, which
+// comes out worse, is a note.
+TEST_F(MachineJobCommand, SaysWhatItsVerdictDoesNotCount) {
+  std::string blade = read_text(of_data("blade.nc"));
+  const std::size_t rapid = blade.find("G0 ");
+  file("blade.nc", blade.erase(rapid, blade.find('\n', rapid) + 1 - rapid));
+  job("tolerance_um = 5", "[part]\ntolerance_um = 20\n");
+  std::string text = read_text(folder_ / "job.toml");
+  text.replace(text.find(of_data("blade.nc")), of_data("blade.nc").size(), "blade.nc");
+  file("job.toml", text);
+  const CommandStreams done = command("run job.toml -o out");
+  ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
+  const nlohmann::json verdict = result("out/result.json").at("verdict");
+  EXPECT_EQ(verdict.at("decision"), "go_with_reservations");
+  ASSERT_EQ(verdict.at("reserved").size(), 1u) << verdict.dump(1);
+  EXPECT_EQ(verdict.at("reserved")[0].at("code"), "ways_not_counted");
+  EXPECT_TRUE(contains(verdict.at("remarks").dump(), "direction comes out worse")) << done.out;
+}
+
 TEST_F(MachineJobCommand, WithoutAProgramItEndsWithTheErrors) {
   std::string text = "[machine]\nfile = \"";
   file("job.toml", text.append(of_data("zxacy.toml"))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compensate/files/compensation_files.hpp"
 #include "format/json.hpp"
+#include "format/reason_words.hpp"
 
 namespace trueaxis {
 namespace {
@@ -69,6 +70,7 @@ std::string compensation_json(const ProgramCompensation& result, const Compensat
   json["exact_minus_differential"] = axes_json(result.exact_minus_differential);
   json["rounding"] = tool_json(result.rounding);
   json["by_error"] = list_of(result.by_error, by_error_json);
+  json["reserved"] = reasons_array(result.reservations, Spoken{});
   json["remarks"] = remarks;
   if (result.u_tip) {
     LargestInProgram expanded = *result.u_tip;

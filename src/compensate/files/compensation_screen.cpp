@@ -5,6 +5,7 @@
 
 #include "base/counted.hpp"
 #include "compensate/files/compensation_files.hpp"
+#include "format/reason_words.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 
@@ -78,11 +79,15 @@ std::string compensation_screen(const ProgramCompensation& result,
                                 const CompensationOptions& options) {
   if (result.blocks_moved == 0) return "DONE: the program does not move; nothing was changed\n";
   const LargestInProgram before = result.off_before(), after = result.off_after();
-  std::string text = fmt::format(
-      "DONE: tip off by {} at most on the whole path with the new program, {} without it (line "
-      "{})\n",
-      um(after.value), um(before.value), before.line);
-  text += next_screen_of(result, options);
+  const bool all_counted = std::ranges::all_of(result.reservations, [](const Reason& one) {
+    return one.code == ReasonCode::direction_worse;
+  });
+  std::string text =
+      fmt::format("DONE: tip off by {} at most {} with the new program, {} without it (line {})",
+                  um(after.value), all_counted ? "on the whole path" : "where its path is known",
+                  um(before.value), before.line);
+  for (const Reason& one : result.reservations) text += "; " + words_of(one);
+  text += "\n" + next_screen_of(result, options);
   text += "ends   off by " + um(result.after.position.value) + " at the ends of blocks, " +
           um(result.before.position.value) + " without it\n";
   text += "path   off by " + um(result.between_after.value) + " between the ends of blocks, " +

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "compensate/files/compensation_files.hpp"
+#include "format/reason_words.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 
@@ -56,6 +57,7 @@ std::string compensation_text(const ProgramCompensation& result,
              result.blocks_moved, result.blocks_rewritten, result.blocks_inserted);
   if (result.blocks_moved == 0) return text;
   text += row("tip off by", length(result.off_before()) + ", now " + length(result.off_after()));
+  for (const Reason& one : result.reservations) text += row("but", words_of(one));
   text += row("ends of blocks",
               length(result.before.position) + ", now " + length(result.after.position));
   text +=

@@ -217,7 +217,8 @@ void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& too
 
 Actuator read_actuator(TomlTable table) {
   Actuator a;
-  a.stroke_mm = table.number("stroke_mm", a.stroke_mm, Range::positive());
+  constexpr double longest_mm = 50.0;  // fast tool servos have some mm, the longest known 30 mm
+  a.stroke_mm = table.number("stroke_mm", a.stroke_mm, {0.0, longest_mm, true, false});
   a.natural_frequency_hz =
       table.number("natural_frequency_hz", a.natural_frequency_hz, Range::positive());
   a.damping = table.number("damping", a.damping, Range::positive());

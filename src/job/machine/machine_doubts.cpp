@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <set>
 
 #include "job/machine/machine_job_steps.hpp"
@@ -112,6 +114,9 @@ Reason not_told(const MachineFinding& found) {
   return reason;
 }
 
+/// A job judges the tip on the cutting moves.
+bool is_of_cuts(const Reason& reason) { return reason.code == ReasonCode::ways_not_counted; }
+
 /// The place of the part as a whole has six numbers. They nearly take up the errors of three points
 /// and fewer, nine numbers and fewer, so that the residual says nothing.
 std::optional<Reason> too_few_cuts(const ProgramCompensation& compensation) {
@@ -179,8 +184,9 @@ Reasons machine_reservations(const MachineJobResult& result) {
                    {{"pattern", one.pattern}}});
   for (const AxisRange& range : result.ranges)
     if (beyond_measured(range)) all.push_back(beyond(range, ReasonCode::axis_not_measured_there));
-  if (result.compensation)
-    if (auto why = tool_reservation(result)) all.push_back(std::move(*why));
+  if (!result.compensation) return all;
+  if (auto why = tool_reservation(result)) all.push_back(std::move(*why));
+  std::ranges::copy_if(result.compensation->reservations, std::back_inserter(all), is_of_cuts);
   return all;
 }
 
@@ -218,6 +224,8 @@ Reasons machine_remarks(const MachineJobResult& result) {
   if (!result.compensation) return all;
   for (const std::string& assumed : result.compensation->remarks)
     all.push_back({ReasonCode::remark, {}, {}, {{"text", assumed}}});
+  std::ranges::copy_if(result.compensation->reservations, std::back_inserter(all),
+                       std::not_fn(is_of_cuts));
   if (result.compensation->singular.empty()) return all;
   const auto& poles = result.compensation->singular;
   all.push_back(

@@ -38,6 +38,7 @@ std::string machine_job_screen(const MachineJobResult& result) {
     text += changes_screen(*result.compensation);
   for (Reason remark : result.remarks) {
     remark.parts.clear();  // what it means in detail
+    remark.remedies.clear();
     text += "note   " + words_of(remark) + "\n";
   }
   return text;
