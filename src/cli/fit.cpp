@@ -16,6 +16,7 @@
 #include "cli/stream_options.hpp"
 #include "cli/terminal.hpp"
 #include "fit/files/fit_files.hpp"
+#include "fit/plausible.hpp"
 #include "format/outputs.hpp"
 #include "format/shell.hpp"
 #include "job/files/job_results.hpp"
@@ -59,7 +60,8 @@ int execute(const FitArguments& options) {
                                 counted(stream.size(), "reading") + " of " + stream.source);
   std::optional<Waiting> waiting("fit of " + stream.source);
   const FitOptions chosen = options.association.chosen(stream);
-  const FitResult result = checked_fit(stream, chosen);
+  FitResult result = checked_fit(stream, chosen);
+  withhold_if_drawn(stream, result);
   waiting.reset();
   expect_enough_readings(result);
   results.write(outputs, "--json", [&] { return fit_json(result); });

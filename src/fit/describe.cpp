@@ -10,6 +10,7 @@
 
 #include "base/counted.hpp"
 #include "fit/apex_interval.hpp"
+#include "fit/plausible.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "measure/centre_of_ball.hpp"
@@ -212,8 +213,6 @@ void report_rms(FitResult& result) {
   }
   result.rms_mm = std::sqrt(std::max(0.0, sum) / std::max<double>(1.0, static_cast<double>(left)));
 }
-
-constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with probability 2e-9
 
 void add_notes(const ReadingNoise& noise, FitResult& result) {
   if (noise.correlated) {

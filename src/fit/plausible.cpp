@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numeric>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -190,6 +192,16 @@ std::string unlike_noise(const ProbeStream& stream, const FitResult& fit) {
       fit.rms_mm / mm_per_um);
 }
 
+void withhold_all(FitResult& fit, const std::string& why) {
+  const auto withhold = [&](std::vector<FitParameter>& parameters) {
+    for (FitParameter& one : parameters)
+      one.estimate = {.unit = one.estimate.unit, .why_not = why};
+  };
+  withhold(fit.parameters);
+  withhold(fit.derived);
+  for (SetUpFit& one : fit.set_ups) withhold(one.parameters);
+}
+
 }  // namespace
 
 std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
@@ -207,13 +219,27 @@ std::string implausible(const ProbeStream& stream, const FitResult& fit, const R
 void refuse(FitResult& fit, const std::string& why) {
   fit.status = FitStatus::implausible;
   fit.message = why;
-  const auto withhold = [&](std::vector<FitParameter>& parameters) {
-    for (FitParameter& one : parameters)
-      one.estimate = {.unit = one.estimate.unit, .why_not = "the readings are implausible"};
-  };
-  withhold(fit.parameters);
-  withhold(fit.derived);
-  for (SetUpFit& one : fit.set_ups) withhold(one.parameters);
+  withhold_all(fit, "the readings are implausible");
+}
+
+void withhold_if_drawn(const ProbeStream& stream, FitResult& fit) {
+  if (fit.loss != Loss::plain || !fit.axis_known() || !is_diagnosed(fit.surface)) return;
+  const double limit_mm = suspect_sds * mad_sigma(fit.residual_mm);
+  std::complex<double> sum = 0.0;
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < fit.residual_mm.size(); ++i) {
+    if (std::abs(fit.residual_mm[i]) <= limit_mm) continue;
+    sum += std::polar(fit.residual_mm[i], stream.c_rad[i]);
+    ++far;
+  }
+  const double drawn_mm = 2.0 * std::abs(sum) / static_cast<double>(fit.residual_mm.size());
+  const double U_mm = fit.coverage_factor * std::min(fit.axis.u_at(fit.position_min_mm),
+                                                     fit.axis.u_at(fit.position_max_mm));
+  if (far == 0 || !(drawn_mm > U_mm)) return;
+  withhold_all(fit, fmt::format("{} far off and draw{} it by about {:.3g} µm, as a keyway does: "
+                                "exclude them (--loss tukey)",
+                                counted(far, "reading lies", "readings lie"), far == 1 ? "s" : "",
+                                drawn_mm / mm_per_um));
 }
 
 }  // namespace trueaxis

@@ -30,4 +30,11 @@ std::string turns_text(const ProbeStream& stream);
 /// Takes every number of the part out of a result: status implausible, with the reason.
 void refuse(FitResult& fit, const std::string& why);
 
+/// Withholds them of a plain fit if readings beyond `suspect_sds` draw the axis by more than its U:
+/// by 2/N of the sum of their residuals as vectors at C, which is the column of the axis there.
+void withhold_if_drawn(const ProbeStream& stream, FitResult& fit);
+
+/// Robust σ: a Gaussian reading lies beyond with a probability of 2e-9.
+inline constexpr double suspect_sds = 6.0;
+
 }  // namespace trueaxis
