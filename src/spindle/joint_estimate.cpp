@@ -187,7 +187,7 @@ namespace {
 
 constexpr int most_rounds_of_second_order = 40;
 constexpr double settled = 1e-3;         // of the largest u of an amplitude, from round to round
-constexpr double outlying = 8.0;         // robust σ: no noise, a chip
+constexpr double outlying = 8.0;         // robust σ of all that does not repeat: a chip
 constexpr double least_sigma_mm = 1e-6;  // below it rounding is not Gaussian
 constexpr double contradiction = 1.5;    // χ²/ν from which sensors and set-ups disagree
 
@@ -321,11 +321,11 @@ void JointEstimate::leave_outliers_out() {
     std::vector<bool> marks(runs_[r].c_rad.size(), false);
     const double per_turn = static_cast<double>(marks.size()) / fits_[r].turns();
     for (Index s = 0; s < left.cols(); ++s) {
-      const std::vector<double> off =
-          less_usual(runs_[r].c_rad, {left.col(s).data(), marks.size()}, per_turn);
-      const double limit = outlying * std::max(mad_sigma(off), least_sigma_mm);
-      for (std::size_t i = 0; i < marks.size(); ++i)
-        marks[i] = marks[i] || std::abs(off[i]) > limit;
+      // σ counts the asynchronous motion, which moves readings of every turn.
+      const std::span<const double> moving(left.col(s).data(), marks.size());
+      const std::vector<double> off = outside_usual(runs_[r].c_rad, moving, per_turn);
+      const double limit = outlying * std::max(mad_sigma(moving), least_sigma_mm);
+      for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = marks[i] || off[i] > limit;
     }
     if (std::ranges::find(marks, true) == marks.end()) continue;
     leave_out(runs_[r], marks);

@@ -250,18 +250,20 @@ std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const do
   return out;
 }
 
-std::vector<double> less_usual(std::span<const double> c_rad, std::span<const double> value,
-                               double per_turn) {
+std::vector<double> outside_usual(std::span<const double> c_rad, std::span<const double> value,
+                                  double per_turn) {
   const auto places = static_cast<std::size_t>(std::max(1.0, std::round(per_turn)));
   std::vector<std::vector<std::size_t>> at(places);
   for (std::size_t i = 0; i < value.size(); ++i) at[place_in_turn(c_rad[i], places)].push_back(i);
-  std::vector<double> out(value.begin(), value.end());
+  std::vector<double> out(value.size(), 0.0);
   for (const std::vector<std::size_t>& rows : at) {
     if (rows.empty()) continue;
     std::vector<double> here;
     for (const std::size_t i : rows) here.push_back(value[i]);
-    const double usual = median(std::move(here));
-    for (const std::size_t i : rows) out[i] -= usual;
+    std::ranges::sort(here);
+    const std::size_t quarter = here.size() / 4;
+    const double low = here[quarter], high = here[here.size() - 1 - quarter];
+    for (const std::size_t i : rows) out[i] = std::max({0.0, low - value[i], value[i] - high});
   }
   return out;
 }

@@ -55,10 +55,11 @@ std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& seri
 /// Which of some places evenly around the turn is nearest.
 std::size_t place_in_turn(double c_rad, std::size_t places);
 
-/// Values less the median of those at about the same angle: a chip that has moved the mean of its
-/// angle does not make its neighbours of other turns look like chips.
-std::vector<double> less_usual(std::span<const double> c_rad, std::span<const double> value,
-                               double per_turn);
+/// How far values lie outside the middle half (Tukey's hinges) of those at about the same angle: 0
+/// for what more than a quarter of the turns have, as motion of order ½ or ⅓ is. A chip that has
+/// moved the mean of its angle does not make its neighbours of other turns look like chips.
+std::vector<double> outside_usual(std::span<const double> c_rad, std::span<const double> value,
+                                  double per_turn);
 
 /// u of the curve at every angle.
 std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const double> angle_rad);
