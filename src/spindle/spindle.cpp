@@ -61,8 +61,8 @@ void check_sensors_agree(std::span<const RunReadings> runs, std::span<const Sync
                                     static_cast<double>(run.angles_rad.size()));
     const std::complex<double> first = z(0, 1);
     const double blurred = times_motion * others / std::abs(first);
-    const auto seen_moving =
-        seen_angles(run.angles_rad, parts[r].asynchronous_mm, refused_rad / sure);
+    const auto seen_moving = seen_angles(run.angles_rad, parts[r].asynchronous_mm,
+                                         parts[r].free_share, refused_rad / sure);
     check_moving(run, seen_moving, u_angle_rad, wrong);
     if (run.angles_rad.size() > 1 && blurred > noted_rad && seen_moving.empty())
       notes.push_back(

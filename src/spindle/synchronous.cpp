@@ -221,6 +221,7 @@ SynchronousPart SynchronousFit::operator()(std::span<const std::vector<double>> 
   const auto sensors = static_cast<Index>(columns.size());
   part.harmonics = Eigen::MatrixXcd::Zero(sensors, carried_ + 1);
   part.asynchronous_mm.resize(static_cast<Index>(c_rad_.size()), sensors);
+  part.free_share = 1.0 - (2.0 * fitted_ + 1.0 + drift) / static_cast<double>(c_rad_.size());
   std::vector<Eigen::VectorXd> solutions;
   for (Index s = 0; s < sensors; ++s) {
     const auto& column = columns[static_cast<std::size_t>(s)];

@@ -22,7 +22,15 @@ struct SynchronousPart {
   /// E|z|² of higher orders that may fold into every order: that of the highest fitted.
   Eigen::VectorXd folded_mm2;
   Eigen::MatrixXd asynchronous_mm;  ///< readings by sensors: less what repeats and the drift
+  double free_share = 0.0;          ///< of their freedom that these two have left
 };
+
+/// The widest stretch of the revolution without a reading.
+struct Gap {
+  double from_rad = 0.0, to_rad = 0.0;
+};
+/// "from C = 50.6° to 101.2° (50.6° of every revolution)".
+std::string gap_words(const Gap& gap);
 
 /// Least squares of a Fourier series in C and a drift of third degree (Eq. 142). Sums over readings
 /// are non-uniform fast transforms, the normal matrix follows from twice as many of them.
