@@ -309,9 +309,13 @@ void JointEstimate::fit() {
   }
   if (order_max_ < 2)
     throw InputError(runs_.front().stream,
-                     "too few readings per revolution, or part of the revolution is missing: "
-                     "record at least 6 readings evenly around the revolution");
-  for (std::size_t r = 0; r < runs_.size(); ++r) parts_.push_back(fits_[r](runs_[r].columns_mm));
+                     "too few readings per revolution, or part of the revolution is missing (" +
+                         gap_words(fits_.back().gap()) +
+                         "): record at least 6 readings evenly around the revolution");
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    parts_.push_back(fits_[r](runs_[r].columns_mm));
+    expect_no_gap(runs_[r], fits_[r], parts_[r]);
+  }
 }
 
 void JointEstimate::leave_outliers_out() {

@@ -254,6 +254,14 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
     notes.push_back(fmt::format(
         "{}the readings of a revolution support orders up to {}: higher orders are not computed",
         which, all.order_max()));
+  for (std::size_t r = 0; r < all.runs().size(); ++r)
+    if (all.fits()[r].cut())
+      notes.push_back(fmt::format("{}: set-up {} has no readings {}, and fewer orders for that",
+                                  all.runs()[r].stream, all.runs()[r].set_up.number,
+                                  gap_words(all.fits()[r].gap())));
+  notes.push_back(which +
+                  "the asynchronous value and the total include the sensors' noise; no U includes "
+                  "an error of a gain");
   if (!all.axial())
     notes.push_back(
         "order 1 is the part's eccentricity together with the spindle's fundamental motion; ISO "

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <complex>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,12 @@ class SynchronousFit {
     return {std::max(2, fitted_ + 1 - std::max(fitted_ / 8, 3)), fitted_};
   }
 
+  /// Whether the angles carry fewer orders than as many readings evenly around the revolution do.
+  bool cut() const { return cut_; }
+  Gap gap() const;
+  /// Whether what the fit has left still repeats: more at the same angle than over the turns.
+  bool leaves_what_repeats(const SynchronousPart& part) const;
+
   /// @param columns one for every sensor.
   SynchronousPart operator()(std::span<const std::vector<double>> columns) const;
 
@@ -64,6 +71,7 @@ class SynchronousFit {
   std::vector<std::vector<double>> drift_;  ///< columns P1 … P3 over the order of the readings
   double turns_ = 0.0;
   int wanted_, fitted_ = 0, carried_ = 0;
+  bool cut_ = false;
   bool interleaved_ = false;  ///< turns do not repeat their angles: nothing folds
   linear::Cholesky normal_;
   std::vector<double> inflation_;  ///< variance of order n over that of even spacing
