@@ -23,8 +23,8 @@ struct SpindleOptions {
   /// The direction in which the tool feels the motion, from +X towards +Y. Unless stated: X, or the
   /// line of the sensors if they are all on one.
   std::optional<double> sensitive_rad;
-  double u_angle_rad = default_u_angle_rad;  ///< standard uncertainty of each sensor's angle
-  double u_reindex_rad = 0.0;                ///< of the angle of each re-indexing
+  double u_angle_rad = default_u_angle_rad;    ///< standard uncertainty of each sensor's angle
+  double u_reindex_rad = default_u_angle_rad;  ///< of the angle of each re-indexing
   double largest_condition = 100.;  ///< an order with a larger condition number is suppressed
   double coverage_factor = 2.0;     ///< k of U = k u
 };

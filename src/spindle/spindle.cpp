@@ -291,6 +291,24 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
                       run.stream, run.left_out, run.set_up.number));
 }
 
+/// Says which angles have a u that nobody stated.
+void add_default_angles(const JointEstimate& all, const SpindleOptions& options,
+                        std::vector<std::string>& notes) {
+  const auto moved = [](const RunReadings& run) { return run.set_up.moved(); };
+  std::string what, option;
+  if (options.u_angle_rad == default_u_angle_rad && all.layout().has_across())
+    what = "each sensor's angle", option = "--u-angle-deg";
+  if (options.u_reindex_rad == default_u_angle_rad && std::ranges::any_of(all.runs(), moved)) {
+    what += what.empty() ? "each re-indexing" : " and each re-indexing";
+    option += option.empty() ? "--u-reindex-deg" : ", --u-reindex-deg";
+  }
+  if (what.empty()) return;
+  notes.push_back(
+      fmt::format("U includes a standard uncertainty of {:g}° of {}, because none is stated: state "
+                  "yours ({}, 0 for exact angles)",
+                  default_u_angle_rad / rad_per_deg, what, option));
+}
+
 /// Radial runs, or axial ones, in one estimate. @throws InputError for a layout without a solution.
 ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& options,
                          std::vector<std::string>& notes) {
@@ -312,11 +330,7 @@ ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& op
   out.disagreement = all.disagreement();
   out.polar = polar_of(all, motion, form);
   add_notes(all, options, notes);
-  if (options.u_angle_rad == default_u_angle_rad && !all.axial() && layout.has_across())
-    notes.push_back(fmt::format(
-        "U includes a standard uncertainty of {:g}° of each sensor's angle, because none is "
-        "stated: state theirs (--u-angle-deg, 0 for exact angles)",
-        default_u_angle_rad / rad_per_deg));
+  add_default_angles(all, options, notes);
   return out;
 }
 

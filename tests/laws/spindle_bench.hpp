@@ -20,7 +20,7 @@ using TrueSeries = std::vector<std::complex<double>>;
 /// The bench has its sensors where it states them.
 inline SpindleOptions exact_angles() {
   SpindleOptions options;
-  options.u_angle_rad = 0.0;
+  options.u_angle_rad = options.u_reindex_rad = 0.0;
   return options;
 }
 
