@@ -99,6 +99,12 @@ struct SpindleBench {
   TrueSeries form, along_x, along_y;
 };
 
+/// Whether value ± 2 u, or the bound in its place, holds the truth.
+inline bool holds(const Estimate& one, double truth_mm) {
+  if (one.interval) return truth_mm <= one.interval->back();
+  return std::abs(one.value - truth_mm) <= 2.0 * one.u;
+}
+
 /// The harmonic as a_n exp(−iφ_n).
 inline std::complex<double> complex_of(const SpindleHarmonic& one) {
   return {one.cos_mm, -one.sin_mm};
