@@ -245,7 +245,7 @@ std::vector<double> outside_usual(std::span<const double> c_rad, std::span<const
     std::vector<double> here;
     for (const std::size_t i : rows) here.push_back(value[i]);
     std::ranges::sort(here);
-    const std::size_t quarter = here.size() / 4;
+    const std::size_t quarter = (here.size() + 1) / 4;
     const double low = here[quarter], high = here[here.size() - 1 - quarter];
     for (const std::size_t i : rows) out[i] = std::max({0.0, low - value[i], value[i] - high});
   }
