@@ -15,7 +15,8 @@
 /// them. Inside mm and rad; an order is a number of undulations per revolution.
 namespace trueaxis {
 
-/// Of a sensor's angle if nobody states it: a mark that is read to a degree, ±1° at most.
+/// Of a sensor's angle or a re-indexing if nobody states it: a mark that is read to a degree, ±1°
+/// at most.
 inline constexpr double default_u_angle_rad = 0.5 * rad_per_deg;
 
 struct SpindleOptions {
@@ -23,8 +24,8 @@ struct SpindleOptions {
   /// The direction in which the tool feels the motion, from +X towards +Y. Unless stated: X, or the
   /// line of the sensors if they are all on one.
   std::optional<double> sensitive_rad;
-  double u_angle_rad = default_u_angle_rad;  ///< standard uncertainty of each sensor's angle
-  double u_reindex_rad = 0.0;                ///< of the angle of each re-indexing
+  double u_angle_rad = default_u_angle_rad;    ///< standard uncertainty of each sensor's angle
+  double u_reindex_rad = default_u_angle_rad;  ///< of the angle of each re-indexing
   double largest_condition = 100.;  ///< an order with a larger condition number is suppressed
   double coverage_factor = 2.0;     ///< k of U = k u
 };
@@ -49,8 +50,9 @@ struct SeparatedOrder {
   SpindleHarmonic across;     ///< motion 90° from it; NaN where the sensors do not see it
 };
 
-/// Values of ISO 230-7 of the error motion in one direction, as ranges in mm with u. The suppressed
-/// orders are in none but the asynchronous one.
+/// Values of ISO 230-7 of the error motion in one direction, as ranges in mm with u; one that is
+/// not beyond the noise is an interval that ends at its 95 % bound. The suppressed orders are in
+/// none but the asynchronous one.
 struct MotionValues {
   Estimate synchronous;   ///< largest − smallest of the orders from 2 (axial: from 1)
   Estimate asynchronous;  ///< the widest band at one angle; the sensors' noise is in it
@@ -82,6 +84,7 @@ struct ErrorMotion {
   std::vector<SeparatedOrder> orders;
   MotionValues sensitive, across;
   Estimate form;  ///< roundness of the part about its least-squares circle (axial: of its face)
+  bool form_seen() const { return form.determined() || form.interval; }
   Estimate fundamental, residual;  ///< axial: once per revolution, and the other whole orders
   std::vector<SpindleRun> runs;
   double disagreement =

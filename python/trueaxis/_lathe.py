@@ -230,7 +230,7 @@ def associate(points: npt.ArrayLike | Path, *, element: str, criterion: str = "g
 
 @with_checked_arguments
 def spindle(streams: Stream | Path | Sequence[Stream | Path], *, order_max: int = 100,
-            sensitive_direction_deg: float | None = None, u_angle_deg: float = 0.5, u_reindex_deg: float = 0.0,
+            sensitive_direction_deg: float | None = None, u_angle_deg: float = 0.5, u_reindex_deg: float = 0.5,
             largest_condition: float = 100.0, coverage_factor: float = 2.0, progress: Progress = None) -> Result:
     """Separates the form of a part from the error motion of the spindle (ISO 230-7).
 

@@ -34,7 +34,7 @@ struct SpindleArguments {
   std::string orders = "2-100";
   Results results;
   std::optional<double> sensitive_deg;
-  double u_angle_deg = default_u_angle_rad / rad_per_deg, u_reindex_deg = 0.0;
+  double u_angle_deg = default_u_angle_rad / rad_per_deg, u_reindex_deg = u_angle_deg;
   double coverage_factor = 2.0;
   double largest_condition = SpindleOptions{}.largest_condition, apart_deg = 20.0;
   int sensors = 0;
@@ -146,7 +146,7 @@ void add_estimate(CLI::App& command, SpindleArguments& options) {
              "standard uncertainty of a sensor's angle, deg (default 0.5)");
   add_option(command, "--u-reindex-deg", options.u_reindex_deg,
              number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"),
-             "standard uncertainty of a re-indexing angle, deg (default 0)");
+             "standard uncertainty of a re-indexing angle, deg (default 0.5)");
   add_coverage_factor(command, options.coverage_factor);
   Results& results = options.results;
   results.add(command, "--json", "trueaxis.spindle", "result (JSON); - prints it");

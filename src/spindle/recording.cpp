@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spindle/recording.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +12,7 @@
 #include "math/statistics.hpp"
 #include "measure/column_checks.hpp"
 #include "measure/passes.hpp"
+#include "spindle/synchronous.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -267,6 +270,15 @@ Layout layout_of(std::span<const RunReadings> runs, double sensitive_rad) {
                   std::to_string(layout.unknowns()) +
                   " unknowns: add a sensor, or a re-indexed set-up");
   return layout;
+}
+
+void expect_no_gap(const RunReadings& run, const SynchronousFit& fit, const SynchronousPart& part) {
+  if (!fit.cut() || !fit.leaves_what_repeats(part)) return;
+  throw InputError(
+      run.stream, fmt::format("set-up {} has no readings {}: the others carry orders up to {}, and "
+                              "what repeats has higher ones. Measure a section without an "
+                              "interruption",
+                              run.set_up.number, gap_words(fit.gap()), fit.order_max()));
 }
 
 void leave_out(RunReadings& run, const std::vector<bool>& marks) {

@@ -36,6 +36,12 @@ double sensitive_direction(std::span<const RunReadings> runs, std::optional<doub
 /// The channels of the runs. @throws InputError where there are fewer than unknowns.
 Layout layout_of(std::span<const RunReadings> runs, double sensitive_rad);
 
+class SynchronousFit;
+struct SynchronousPart;
+
+/// @throws InputError where readings are missing and the orders that are left are not all there are
+void expect_no_gap(const RunReadings& run, const SynchronousFit& fit, const SynchronousPart& part);
+
 /// The readings of a run less those whose `marks` are set.
 void leave_out(RunReadings& run, const std::vector<bool>& marks);
 

@@ -32,7 +32,8 @@ Eigen::VectorXd noise_levels(const Eigen::MatrixXd& read_mm) {
 struct Correction {
   Eigen::VectorXd by_rad, u_rad;
 };
-Correction correction_of(const Eigen::VectorXd& angles_rad, const Eigen::MatrixXd& read_mm) {
+Correction correction_of(const Eigen::VectorXd& angles_rad, const Eigen::MatrixXd& read_mm,
+                         double free_share) {
   const Eigen::VectorXd levels = noise_levels(read_mm);
   const Index sensors = angles_rad.size(), unknown = sensors - 1, spare = sensors - 2;
   Eigen::MatrixXd along(sensors, 2), across(sensors, 2);
@@ -61,8 +62,8 @@ Correction correction_of(const Eigen::VectorXd& angles_rad, const Eigen::MatrixX
     if (!(moved(0, 0) > 0.0 && moved.determinant() > 0.0)) return {};  // positive definite
     const Eigen::Matrix2d inverse = moved.inverse();
     const Eigen::Vector2d share = inverse * together;
-    const Eigen::Matrix2d by_noise =
-        inverse * square * inverse * noise_mm.squaredNorm() / count / independent(noise_mm);
+    const Eigen::Matrix2d by_noise = inverse * square * inverse * noise_mm.squaredNorm() / count /
+                                     (free_share * independent(noise_mm));
     // Sensors of unequal noise have a part of it in both, closure and motion.
     const Eigen::Vector2d common = level * inverse * weights * levels.asDiagonal() * none.col(j);
     for (Index k = 0; k < 2; ++k) {
@@ -78,7 +79,8 @@ Correction correction_of(const Eigen::VectorXd& angles_rad, const Eigen::MatrixX
 }  // namespace
 
 std::vector<SeenAngle> seen_angles(std::span<const double> stated_rad,
-                                   const Eigen::MatrixXd& asynchronous_mm, double u_largest_rad) {
+                                   const Eigen::MatrixXd& asynchronous_mm, double free_share,
+                                   double u_largest_rad) {
   constexpr int most_rounds = 30;
   constexpr double settled = 1e-4;
   const auto sensors = static_cast<Index>(stated_rad.size());
@@ -86,7 +88,7 @@ std::vector<SeenAngle> seen_angles(std::span<const double> stated_rad,
   Eigen::VectorXd angles = Eigen::Map<const Eigen::VectorXd>(stated_rad.data(), sensors);
   Correction by;
   for (int round = 0; round < most_rounds; ++round) {
-    by = correction_of(angles, asynchronous_mm);
+    by = correction_of(angles, asynchronous_mm, free_share);
     if (by.by_rad.size() == 0 || !by.by_rad.allFinite() || !by.u_rad.allFinite()) return {};
     constexpr double longest = 0.3;  // of a step, rad: the first order holds so far
     const double scale = std::min(1.0, longest / std::max(1e-12, by.by_rad.cwiseAbs().maxCoeff()));

@@ -12,6 +12,7 @@
 #include "base/angle.hpp"
 #include "spindle/joint_estimate.hpp"
 #include "spindle/recording.hpp"
+#include "spindle/resolved.hpp"
 #include "spindle/seen_angles.hpp"
 #include "spindle/synchronous.hpp"
 #include "trueaxis/error.hpp"
@@ -61,8 +62,8 @@ void check_sensors_agree(std::span<const RunReadings> runs, std::span<const Sync
                                     static_cast<double>(run.angles_rad.size()));
     const std::complex<double> first = z(0, 1);
     const double blurred = times_motion * others / std::abs(first);
-    const auto seen_moving =
-        seen_angles(run.angles_rad, parts[r].asynchronous_mm, refused_rad / sure);
+    const auto seen_moving = seen_angles(run.angles_rad, parts[r].asynchronous_mm,
+                                         parts[r].free_share, refused_rad / sure);
     check_moving(run, seen_moving, u_angle_rad, wrong);
     if (run.angles_rad.size() > 1 && blurred > noted_rad && seen_moving.empty())
       notes.push_back(
@@ -164,7 +165,7 @@ double least_per_turn(const JointEstimate& all) {
   return least;
 }
 
-MotionValues values_of(const JointEstimate& all, const UncertainSeries& series, bool across) {
+MotionValues values_of(const JointEstimate& all, const ResolvedSeries& series, bool across) {
   const auto moving = all.asynchronous(across);
   MotionValues out{range_estimate(series), {}, {}};
   if (moving.empty()) {
@@ -176,14 +177,13 @@ MotionValues values_of(const JointEstimate& all, const UncertainSeries& series, 
   return out;
 }
 
-PolarCurves polar_of(const JointEstimate& all, const UncertainSeries& motion,
-                     const UncertainSeries& form) {
+PolarCurves polar_of(const JointEstimate& all, const ResolvedSeries& motion,
+                     const ResolvedSeries& form) {
   PolarCurves out;
   for (std::size_t i = 0; i < polar_points; ++i) {
     out.angle_rad.push_back(two_pi * static_cast<double>(i) / static_cast<double>(polar_points));
-    out.motion_mm.push_back(value_at(motion.harmonics, out.angle_rad.back()));
-    if (all.layout().has_form())
-      out.form_mm.push_back(value_at(form.harmonics, out.angle_rad.back()));
+    out.motion_mm.push_back(value_at(motion.mean, out.angle_rad.back()));
+    if (all.layout().has_form()) out.form_mm.push_back(value_at(form.mean, out.angle_rad.back()));
   }
   out.u_motion_mm = u_of_curve(motion, out.angle_rad);
   if (all.layout().has_form()) out.u_form_mm = u_of_curve(form, out.angle_rad);
@@ -191,7 +191,7 @@ PolarCurves polar_of(const JointEstimate& all, const UncertainSeries& motion,
     const std::size_t shown = std::min(run.c_rad.size(), cloud_points - out.total_mm.size());
     for (std::size_t i = 0; i < shown; ++i) {
       out.total_angle_rad.push_back(run.c_rad[i]);
-      out.total_mm.push_back(value_at(motion.harmonics, run.c_rad[i]) + run.motion_mm[i]);
+      out.total_mm.push_back(value_at(motion.mean, run.c_rad[i]) + run.motion_mm[i]);
     }
   }
   return out;
@@ -199,13 +199,14 @@ PolarCurves polar_of(const JointEstimate& all, const UncertainSeries& motion,
 
 /// Once per revolution, and the whole orders above it.
 void split_axial(const UncertainSeries& series, ErrorMotion& motion) {
-  const double u_mm = std::hypot(series.u_mm[1], series.moved_mm.row(1).norm());
+  const double u_mm =
+      std::hypot(series.u_mm[1], series.u_not_noise_mm[1], series.moved_mm.row(1).norm());
   motion.fundamental = {2.0 * std::abs(series.harmonics[1]), 2.0 * u_mm, "mm", ""};
   UncertainSeries rest = series;
   rest.harmonics[1] = 0.0;
   rest.u_mm[1] = 0.0;
   rest.moved_mm.row(1).setZero();
-  motion.residual = range_estimate(rest);
+  motion.residual = range_estimate(resolve(rest));
 }
 
 /// The amplitude of the highest orders fitted, RMS, of the sensor that reads most of them.
@@ -254,6 +255,14 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
     notes.push_back(fmt::format(
         "{}the readings of a revolution support orders up to {}: higher orders are not computed",
         which, all.order_max()));
+  for (std::size_t r = 0; r < all.runs().size(); ++r)
+    if (all.fits()[r].cut())
+      notes.push_back(fmt::format("{}: set-up {} has no readings {}, and fewer orders for that",
+                                  all.runs()[r].stream, all.runs()[r].set_up.number,
+                                  gap_words(all.fits()[r].gap())));
+  notes.push_back(which +
+                  "the asynchronous value and the total include the sensors' noise; no U includes "
+                  "an error of a gain");
   if (!all.axial())
     notes.push_back(
         "order 1 is the part's eccentricity together with the spindle's fundamental motion; ISO "
@@ -283,6 +292,24 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
                       run.stream, run.left_out, run.set_up.number));
 }
 
+/// Says which angles have a u that nobody stated.
+void add_default_angles(const JointEstimate& all, const SpindleOptions& options,
+                        std::vector<std::string>& notes) {
+  const auto moved = [](const RunReadings& run) { return run.set_up.moved(); };
+  std::string what, option;
+  if (options.u_angle_rad == default_u_angle_rad && all.layout().has_across())
+    what = "each sensor's angle", option = "--u-angle-deg";
+  if (options.u_reindex_rad == default_u_angle_rad && std::ranges::any_of(all.runs(), moved)) {
+    what += what.empty() ? "each re-indexing" : " and each re-indexing";
+    option += option.empty() ? "--u-reindex-deg" : ", --u-reindex-deg";
+  }
+  if (what.empty()) return;
+  notes.push_back(
+      fmt::format("U includes a standard uncertainty of {:g}° of {}, because none is stated: state "
+                  "yours ({}, 0 for exact angles)",
+                  default_u_angle_rad / rad_per_deg, what, option));
+}
+
 /// Radial runs, or axial ones, in one estimate. @throws InputError for a layout without a solution.
 ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& options,
                          std::vector<std::string>& notes) {
@@ -294,21 +321,18 @@ ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& op
   out.sensitive_rad = all.sensitive_rad();
   out.across_seen = layout.has_across();
   out.orders = orders_of(all);
-  const UncertainSeries motion = all.series(layout.along()), form = all.series(layout.form());
+  const ResolvedSeries motion = resolve(all.series(layout.along()));
+  const ResolvedSeries form = resolve(all.series(layout.form()));
   out.sensitive = values_of(all, motion, false);
-  if (layout.has_across()) out.across = values_of(all, all.series(layout.across()), true);
+  if (layout.has_across()) out.across = values_of(all, resolve(all.series(layout.across())), true);
   out.form =
       layout.has_form() ? range_estimate(form) : Estimate{nan, nan, "mm", "no form is separated"};
-  if (all.axial() && all.order_min() == 1) split_axial(motion, out);
+  if (all.axial() && all.order_min() == 1) split_axial(all.series(layout.along()), out);
   out.runs = runs_of(all);
   out.disagreement = all.disagreement();
   out.polar = polar_of(all, motion, form);
   add_notes(all, options, notes);
-  if (options.u_angle_rad == default_u_angle_rad && !all.axial() && layout.has_across())
-    notes.push_back(fmt::format(
-        "U includes a standard uncertainty of {:g}° of each sensor's angle, because none is "
-        "stated: state theirs (--u-angle-deg, 0 for exact angles)",
-        default_u_angle_rad / rad_per_deg));
+  add_default_angles(all, options, notes);
   return out;
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spindle/synchronous.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "math/fourier_sums.hpp"
 #include "math/statistics.hpp"
+#include "spindle/values.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -67,6 +70,12 @@ Eigen::MatrixXcd covariance_of(const std::vector<NearLine>& near) {
 
 }  // namespace
 
+std::string gap_words(const Gap& gap) {
+  return fmt::format("from C = {:.1f}° to {:.1f}° ({:.1f}° of every revolution)",
+                     gap.from_rad / rad_per_deg, std::fmod(gap.to_rad / rad_per_deg, 360.0),
+                     (gap.to_rad - gap.from_rad) / rad_per_deg);
+}
+
 SynchronousFit::SynchronousFit(std::span<const double> c_rad, int wanted)
     : c_rad_(c_rad.begin(), c_rad.end()),
       drift_(drift_columns(c_rad.size(), drift)),
@@ -78,9 +87,52 @@ SynchronousFit::SynchronousFit(std::span<const double> c_rad, int wanted)
   // Turns that do not repeat the same angles carry more orders than one turn does.
   interleaved_ =
       nyquist < wanted && readings > 3.0 * (2.0 * wanted + 1.0 + drift) && prepare(wanted);
-  int orders = std::min(nyquist, std::max(most_orders, wanted));
+  const int even = std::min(nyquist, std::max(most_orders, wanted));
+  int orders = even;
   while (!interleaved_ && orders > 0 && !prepare(orders)) orders = 3 * orders / 4;
+  // A gap hides an undulation of an order that evenly spaced readings carry.
+  const Gap widest = gap();
+  cut_ = orders < even && even * (widest.to_rad - widest.from_rad) > two_pi;
   carried_ = interleaved_ ? wanted_ : std::clamp(orders, 0, wanted_);
+}
+
+Gap SynchronousFit::gap() const {
+  std::vector<double> at;
+  for (const double c : c_rad_) at.push_back(c - two_pi * std::floor(c / two_pi));
+  std::ranges::sort(at);
+  Gap widest{at.back(), at.front() + two_pi};
+  for (std::size_t i = 1; i < at.size(); ++i)
+    if (at[i] - at[i - 1] > widest.to_rad - widest.from_rad) widest = {at[i - 1], at[i]};
+  return widest;
+}
+
+/// An analysis of variance at each angle: the mean, and what is about it (Eq. 432). A ratio of mean
+/// squares of ν₁ and ν₂ degrees of freedom has the variance 2/ν₁ + 2/ν₂.
+bool SynchronousFit::leaves_what_repeats(const SynchronousPart& part) const {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < c_rad_.size(); ++i)
+    steps.push_back(std::abs(c_rad_[i] - c_rad_[i - 1]));
+  const auto places =
+      static_cast<std::size_t>(std::max(1.0, two_pi / median(std::move(steps)) + 0.5));
+  const Index sensors = part.asynchronous_mm.cols();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(static_cast<Index>(places), sensors);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(sum.rows());
+  for (std::size_t i = 0; i < c_rad_.size(); ++i) {
+    const auto at = static_cast<Index>(place_in_turn(c_rad_[i], places));
+    sum.row(at) += part.asynchronous_mm.row(static_cast<Index>(i));
+    count[at] += 1.0;
+  }
+  const double occupied = static_cast<double>((count.array() > 0.0).count());
+  const double between = occupied - (2.0 * fitted_ + 1.0);
+  const double within = static_cast<double>(c_rad_.size()) - occupied;
+  if (!(between > 0.0 && within > 0.0)) return false;
+  const double most = 1.0 + least_excess * std::sqrt(2.0 / between + 2.0 / within);
+  for (Index s = 0; s < sensors; ++s) {
+    const double repeats = sum.col(s).cwiseAbs2().cwiseQuotient(count.cwiseMax(1.0)).sum();
+    const double rest = part.asynchronous_mm.col(s).squaredNorm() - repeats;
+    if (repeats / between > most * rest / within) return true;
+  }
+  return false;
 }
 
 /// The normal matrix of 1, drift, cos nC, sin nC from sums of cos kC and sin kC, k ≤ 2N. False
@@ -221,6 +273,7 @@ SynchronousPart SynchronousFit::operator()(std::span<const std::vector<double>> 
   const auto sensors = static_cast<Index>(columns.size());
   part.harmonics = Eigen::MatrixXcd::Zero(sensors, carried_ + 1);
   part.asynchronous_mm.resize(static_cast<Index>(c_rad_.size()), sensors);
+  part.free_share = 1.0 - (2.0 * fitted_ + 1.0 + drift) / static_cast<double>(c_rad_.size());
   std::vector<Eigen::VectorXd> solutions;
   for (Index s = 0; s < sensors; ++s) {
     const auto& column = columns[static_cast<std::size_t>(s)];

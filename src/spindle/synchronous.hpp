@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <complex>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,15 @@ struct SynchronousPart {
   /// E|z|² of higher orders that may fold into every order: that of the highest fitted.
   Eigen::VectorXd folded_mm2;
   Eigen::MatrixXd asynchronous_mm;  ///< readings by sensors: less what repeats and the drift
+  double free_share = 0.0;          ///< of their freedom that these two have left
 };
+
+/// The widest stretch of the revolution without a reading.
+struct Gap {
+  double from_rad = 0.0, to_rad = 0.0;
+};
+/// "from C = 50.6° to 101.2° (50.6° of every revolution)".
+std::string gap_words(const Gap& gap);
 
 /// Least squares of a Fourier series in C and a drift of third degree (Eq. 142). Sums over readings
 /// are non-uniform fast transforms, the normal matrix follows from twice as many of them.
@@ -38,6 +47,12 @@ class SynchronousFit {
   std::pair<int, int> end_orders() const {
     return {std::max(2, fitted_ + 1 - std::max(fitted_ / 8, 3)), fitted_};
   }
+
+  /// Whether the angles carry fewer orders than as many readings evenly around the revolution do.
+  bool cut() const { return cut_; }
+  Gap gap() const;
+  /// Whether what the fit has left still repeats: more at the same angle than over the turns.
+  bool leaves_what_repeats(const SynchronousPart& part) const;
 
   /// @param columns one for every sensor.
   SynchronousPart operator()(std::span<const std::vector<double>> columns) const;
@@ -56,6 +71,7 @@ class SynchronousFit {
   std::vector<std::vector<double>> drift_;  ///< columns P1 … P3 over the order of the readings
   double turns_ = 0.0;
   int wanted_, fitted_ = 0, carried_ = 0;
+  bool cut_ = false;
   bool interleaved_ = false;  ///< turns do not repeat their angles: nothing folds
   linear::Cholesky normal_;
   std::vector<double> inflation_;  ///< variance of order n over that of even spacing

@@ -10,6 +10,7 @@
 
 #include "math/fast_fourier.hpp"
 #include "math/statistics.hpp"
+#include "spindle/resolved.hpp"
 
 namespace trueaxis {
 
@@ -50,8 +51,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t curve_points = 2048;   // a peak of order 100 to 1.2 % of its own
-constexpr std::size_t harmonic_draws = 500;  // u to 3 %
+constexpr std::size_t curve_points = 2048;  // a peak of order 100 to 1.2 % of its own
+const double factor = bound_factor(2.0);    // of u in a bound, which holds 95 % whatever k is
+constexpr double confidence = 0.95;
 // u to 7 % (long recordings: 14 %)
 constexpr std::size_t most_surrogates = 100, least_surrogates = 25;
 constexpr std::size_t most_surrogate_readings = 4'000'000;
@@ -69,13 +71,12 @@ double deviation_of(const std::vector<double>& drawn) {
   return spread_of(mean, drawn);
 }
 
-/// Curves of harmonics over one turn, as they are and drawn from what is known of them.
+/// Curves of harmonics over one turn.
 class CurveSource {
  public:
-  explicit CurveSource(const UncertainSeries& series)
-      : series_(series), fourier_(curve_points), workspace_(fourier_.workspace()) {}
+  CurveSource() : fourier_(curve_points), workspace_(fourier_.workspace()) {}
 
-  std::vector<double> curve(const Series& harmonics) {
+  std::vector<double> operator()(const Series& harmonics) {
     std::vector<double> real(curve_points), imaginary(curve_points);
     for (std::size_t n = 0; n < harmonics.size(); ++n) {
       real[n] = harmonics[n].real();
@@ -85,27 +86,10 @@ class CurveSource {
     for (const Complex& at : fourier_(real, imaginary, workspace_)) out.push_back(at.real());
     return out;
   }
-  std::vector<double> best() { return curve(series_.harmonics); }
-  std::vector<double> draw() {
-    Series drawn = series_.harmonics;
-    std::vector<double> turned(static_cast<std::size_t>(series_.moved_mm.cols()));
-    for (double& one : turned) one = normal_(engine_);
-    for (std::size_t n = 0; n < drawn.size(); ++n) {
-      const double real = normal_(engine_), imaginary = normal_(engine_);
-      drawn[n] += series_.u_mm[n] * Complex(real, imaginary);
-      for (std::size_t k = 0; k < turned.size(); ++k)
-        drawn[n] += turned[k] *
-                    series_.moved_mm(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(k));
-    }
-    return curve(drawn);
-  }
 
  private:
-  const UncertainSeries& series_;
   FastFourier fourier_;
   FastFourier::Workspace workspace_;
-  boost::random::mt19937_64 engine_{seed};
-  boost::random::normal_distribution<double> normal_;
 };
 
 /// Series of one spectrum with other phases. What is beyond the last smooth length is left off.
@@ -197,19 +181,25 @@ std::size_t place_in_turn(double c_rad, std::size_t places) {
          places;
 }
 
-Estimate range_estimate(const UncertainSeries& series) {
-  CurveSource source(series);
-  const double value = range_of(source.best()).length();
+Estimate range_estimate(const ResolvedSeries& series) {
+  CurveSource curve;
+  const double value = range_of(curve(series.mean)).length();
   std::vector<double> drawn;
-  for (std::size_t k = 0; k < harmonic_draws; ++k)
-    drawn.push_back(range_of(source.draw()).length());
-  return {value, spread_of(value, drawn), "mm", ""};
+  for (const Series& one : series.drawn) drawn.push_back(range_of(curve(one)).length());
+  const double u = spread_of(value, drawn);
+  if (value > factor * u || u == 0.0) return {value, u, "mm", ""};
+  // An order that is absent in most draws bounds nothing.
+  std::erase_if(drawn, [](double one) { return !(one > 0.0); });
+  const auto rank = static_cast<std::ptrdiff_t>(confidence * static_cast<double>(drawn.size()));
+  std::ranges::nth_element(drawn, drawn.begin() + rank);
+  const double most = std::max(value + factor * u, drawn[static_cast<std::size_t>(rank)]);
+  return {.unit = "mm", .why_not = "not beyond its uncertainty", .interval = std::array{0.0, most}};
 }
 
-std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& series,
+std::pair<Estimate, Estimate> asynchronous_and_total(const ResolvedSeries& series,
                                                      std::span<const AsynchronousMotion> runs,
                                                      double per_turn) {
-  CurveSource source(series);
+  CurveSource curve;
   const auto places = static_cast<std::size_t>(std::max(8.0, std::round(per_turn)));
   std::vector<std::vector<double>> motions;
   std::vector<Surrogates> surrogates;
@@ -220,7 +210,7 @@ std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& seri
     readings += run.motion_mm.size();
   }
   const Bands found = bands_of(runs, motions, places);
-  const double band = found.widest(), total = total_of(source.best(), found);
+  const double band = found.widest(), total = total_of(curve(series.mean), found);
   boost::random::mt19937_64 engine(seed);
   std::vector<double> bands, totals;
   const std::size_t draws =
@@ -229,39 +219,35 @@ std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& seri
     for (std::size_t r = 0; r < runs.size(); ++r) motions[r] = surrogates[r].draw(engine);
     const Bands drawn = bands_of(runs, motions, places);
     bands.push_back(drawn.widest());
-    totals.push_back(total_of(source.draw(), drawn));
+    totals.push_back(total_of(curve(series.drawn[k]), drawn));
   }
   return {{band, deviation_of(bands), "mm", ""}, {total, deviation_of(totals), "mm", ""}};
 }
 
-std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const double> angle_rad) {
-  double noise = 0.0;  // the same at every angle
-  for (const double u : series.u_mm) noise += u * u;
+std::vector<double> u_of_curve(const ResolvedSeries& series, std::span<const double> angle_rad) {
   std::vector<double> out;
   for (const double angle : angle_rad) {
-    double sum = noise;
-    for (Eigen::Index k = 0; k < series.moved_mm.cols(); ++k) {
-      const Eigen::VectorXcd column = series.moved_mm.col(k);
-      const double moved = value_at({column.begin(), column.end()}, angle);
-      sum += moved * moved;
-    }
-    out.push_back(std::sqrt(sum));
+    std::vector<double> drawn;
+    for (const Series& one : series.drawn) drawn.push_back(value_at(one, angle));
+    out.push_back(spread_of(value_at(series.mean, angle), drawn));
   }
   return out;
 }
 
-std::vector<double> less_usual(std::span<const double> c_rad, std::span<const double> value,
-                               double per_turn) {
+std::vector<double> outside_usual(std::span<const double> c_rad, std::span<const double> value,
+                                  double per_turn) {
   const auto places = static_cast<std::size_t>(std::max(1.0, std::round(per_turn)));
   std::vector<std::vector<std::size_t>> at(places);
   for (std::size_t i = 0; i < value.size(); ++i) at[place_in_turn(c_rad[i], places)].push_back(i);
-  std::vector<double> out(value.begin(), value.end());
+  std::vector<double> out(value.size(), 0.0);
   for (const std::vector<std::size_t>& rows : at) {
     if (rows.empty()) continue;
     std::vector<double> here;
     for (const std::size_t i : rows) here.push_back(value[i]);
-    const double usual = median(std::move(here));
-    for (const std::size_t i : rows) out[i] -= usual;
+    std::ranges::sort(here);
+    const std::size_t quarter = (here.size() + 1) / 4;
+    const double low = here[quarter], high = here[here.size() - 1 - quarter];
+    for (const std::size_t i : rows) out[i] = std::max({0.0, low - value[i], value[i] - high});
   }
   return out;
 }

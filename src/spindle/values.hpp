@@ -31,9 +31,10 @@ Series second_order(const RunReadings& run, std::size_t sensor, double sensitive
 
 /// A form or a motion with what is known of its harmonics.
 struct UncertainSeries {
-  Series harmonics;           ///< of order 0 …
-  std::vector<double> u_mm;   ///< of either component, from noise; independent between orders
-  Eigen::MatrixXcd moved_mm;  ///< orders by influences: what one u of each moves
+  Series harmonics;          ///< of order 0 …
+  std::vector<double> u_mm;  ///< of either component, from noise; independent between orders
+  std::vector<double> u_not_noise_mm;  ///< from orders that fold and the second order, likewise
+  Eigen::MatrixXcd moved_mm;           ///< orders by influences: what one u of each moves
 };
 
 /// What does not repeat, along one direction, of one run.
@@ -41,26 +42,29 @@ struct AsynchronousMotion {
   std::vector<double> c_rad, motion_mm;
 };
 
-/// Largest − smallest over a turn, u by Monte Carlo (JCGM 101) from the harmonics' covariance: RMS
-/// distance of what is drawn from the value, so that the noise's bias of a range is in u.
-Estimate range_estimate(const UncertainSeries& series);
+struct ResolvedSeries;
+
+/// Largest − smallest over a turn of the mean of all draws, u their RMS distance from it; where
+/// that is nothing beyond the noise, an interval that ends at its 95 % bound.
+Estimate range_estimate(const ResolvedSeries& series);
 
 /// The widest band at one angle over all turns, and largest − smallest of what repeats and what
 /// does not together. Their u is how much they differ between recordings as long, from series of
 /// the same spectrum with phases drawn anew (Theiler et al. 1992).
-std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& series,
+std::pair<Estimate, Estimate> asynchronous_and_total(const ResolvedSeries& series,
                                                      std::span<const AsynchronousMotion> runs,
                                                      double per_turn);
 
 /// Which of some places evenly around the turn is nearest.
 std::size_t place_in_turn(double c_rad, std::size_t places);
 
-/// Values less the median of those at about the same angle: a chip that has moved the mean of its
-/// angle does not make its neighbours of other turns look like chips.
-std::vector<double> less_usual(std::span<const double> c_rad, std::span<const double> value,
-                               double per_turn);
+/// How far values lie outside the middle half (Tukey's hinges) of those at about the same angle: 0
+/// for what more than a quarter of the turns have, as motion of order ½ or ⅓ is. A chip that has
+/// moved the mean of its angle does not make its neighbours of other turns look like chips.
+std::vector<double> outside_usual(std::span<const double> c_rad, std::span<const double> value,
+                                  double per_turn);
 
 /// u of the curve at every angle.
-std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const double> angle_rad);
+std::vector<double> u_of_curve(const ResolvedSeries& series, std::span<const double> angle_rad);
 
 }  // namespace trueaxis

@@ -20,7 +20,7 @@ using TrueSeries = std::vector<std::complex<double>>;
 /// The bench has its sensors where it states them.
 inline SpindleOptions exact_angles() {
   SpindleOptions options;
-  options.u_angle_rad = 0.0;
+  options.u_angle_rad = options.u_reindex_rad = 0.0;
   return options;
 }
 
@@ -98,6 +98,12 @@ struct SpindleBench {
   virtual_lathe::Scenario scenario;
   TrueSeries form, along_x, along_y;
 };
+
+/// Whether value ± 2 u, or the bound in its place, holds the truth.
+inline bool holds(const Estimate& one, double truth_mm) {
+  if (one.interval) return truth_mm <= one.interval->back();
+  return std::abs(one.value - truth_mm) <= 2.0 * one.u;
+}
 
 /// The harmonic as a_n exp(−iφ_n).
 inline std::complex<double> complex_of(const SpindleHarmonic& one) {

@@ -50,10 +50,9 @@ TEST(SpindleDoubtsLaw, WhatFoldsIsInUAndTheTotalHoldsWhatRepeats) {
     const SpindleResult result = bench.separate();
     EXPECT_TRUE(noted(result, "may fold into every order")) << seed;
     const MotionValues& values = result.radial->sensitive;
-    inside +=
-        std::abs(values.synchronous.value - range_mm(bench.along_x)) <= 2.0 * values.synchronous.u;
+    inside += holds(values.synchronous, range_mm(bench.along_x));
     for (const MotionValues* one : {&values, &result.radial->across})
-      EXPECT_GE(one->total.value, one->synchronous.value) << seed;
+      EXPECT_FALSE(one->total.value < one->synchronous.value) << seed;
   }
   EXPECT_GE(inside, 10) << "of " << seeds;  // 95 %: 9 and fewer in 0.2 % of cases
 }
@@ -77,8 +76,29 @@ TEST(SpindleDoubtsLaw, AnAngleOfWhichNobodyStatesUIsInU) {
     for (double& angle : stream.sensor_angles_rad) angle += off(engine) * rad_per_deg;
     const SpindleResult result = separate_spindle({&stream, 1});
     EXPECT_TRUE(noted(result, "U includes a standard uncertainty of 0.5°"));
-    const Estimate& synchronous = result.radial->sensitive.synchronous;
-    inside += std::abs(synchronous.value - range_mm(bench.along_x)) <= 2.0 * synchronous.u;
+    inside += holds(result.radial->sensitive.synchronous, range_mm(bench.along_x));
+  }
+  std::cout << inside << " of " << seeds << " inside U\n";
+  EXPECT_GE(inside, 16);  // 95 %: 15 and fewer in 0.3 % of cases
+}
+
+// A part turned by hand to a mark: U was that of 180° exactly, and did not say so.
+TEST(SpindleDoubtsLaw, AReversalOfWhichNobodyStatesUIsInU) {
+  int inside = 0;
+  constexpr int seeds = 20;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    std::mt19937_64 engine(static_cast<std::uint64_t>(seed));
+    std::uniform_real_distribution<double> off(-1.0, 1.0);
+    SpindleBench bench(static_cast<std::uint64_t>(seed), 30);
+    bench.passes({1, 2}, 12.0, 128.0);
+    bench.setup(1, 0.0);
+    bench.setup(2, 180.0, true);
+    bench.scenario.noise.sigma_mm = 5e-6;
+    ProbeStream stream = bench.stream();
+    stream.setups[1].reindex_rad += off(engine) * rad_per_deg;
+    const SpindleResult result = separate_spindle({&stream, 1});
+    EXPECT_TRUE(noted(result, "U includes a standard uncertainty of 0.5° of each re-indexing"));
+    inside += holds(result.radial->sensitive.synchronous, range_mm(bench.along_x));
   }
   std::cout << inside << " of " << seeds << " inside U\n";
   EXPECT_GE(inside, 16);  // 95 %: 15 and fewer in 0.3 % of cases
@@ -113,6 +133,85 @@ TEST(SpindleDoubtsLaw, WhatDoesNotRepeatShowsTheAngles) {
       EXPECT_NEAR(angle, 113.2, 1.5 * U) << what;
     }
   }
+}
+
+// At each C such motion has two values or three. The quieter was called chips: 1805 of 10242
+// readings were excluded, and the synchronous value was 0.94 ± 0.01 µm for 0.50.
+TEST(SpindleDoubtsLaw, MotionOfHalfOrdersIsNoOutlierAndAChipIsOne) {
+  for (const double order : {0.5, 3.5, 10.0 / 3.0}) {
+    SpindleBench bench(13, 30);
+    bench.passes({1, 2}, 20.0, 256.0);
+    bench.setup(1, 0.0);
+    bench.setup(2, 180.0, true);
+    bench.scenario.noise.sigma_mm = 10e-6;
+    bench.scenario.effects.push_back(
+        {"spindle.asynchronous", {{"order", order}, {"amplitude_mm", 5e-4}, {"phase_rad", 1.0}}});
+    ProbeStream stream = bench.stream();
+    stream.reading_mm[1234] += 0.02;
+    const SpindleResult result = separate_spindle({&stream, 1}, exact_angles());
+    const ErrorMotion& radial = *result.radial;
+    EXPECT_EQ(radial.runs[0].left_out, 1u) << order;
+    EXPECT_EQ(radial.runs[1].left_out, 0u) << order;
+    EXPECT_TRUE(holds(radial.sensitive.synchronous, range_mm(bench.along_x))) << order;
+    EXPECT_TRUE(holds(radial.form, range_mm(bench.form))) << order;
+  }
+}
+
+// 50 nm of noise made a range of 98 ± 81 nm of no motion, and 78 % of cases were outside U.
+TEST(SpindleDoubtsLaw, NoiseIsNoSynchronousMotion) {
+  int inside = 0, bounds = 0;
+  constexpr int seeds = 20;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    SpindleBench bench = three_sensors(static_cast<std::uint64_t>(seed), 256.0);
+    bench.scenario.noise.sigma_mm = 50e-6;
+    std::erase_if(bench.scenario.effects,
+                  [](const auto& one) { return one.id == "spindle.radial_synchronous"; });
+    const MotionValues values = bench.separate().radial->sensitive;
+    bounds += values.synchronous.interval.has_value();
+    inside += holds(values.synchronous, 0.0);
+    if (values.synchronous.interval) {
+      EXPECT_LT(values.synchronous.interval->back(), 98e-6);
+    }
+  }
+  EXPECT_GE(inside, 16);  // 95 %: 15 and fewer in 0.3 % of cases
+  EXPECT_GE(bounds, 16);
+}
+
+// A keyway of 50°: orders 2 to 4 were left of the form, 283 good readings were excluded, and the
+// asynchronous value was 3.2 µm for 0.06.
+TEST(SpindleDoubtsLaw, AnInterruptedSectionIsRefusedByTheAnglesOfItsGap) {
+  const auto cut = [](ProbeStream stream, double wide_deg) {
+    const auto in_gap = [&](double c_rad) {
+      const double at = std::fmod(c_rad / rad_per_deg + 360.0, 360.0);
+      return at > 90.5 && at < 90.5 + wide_deg;
+    };
+    const std::vector<double> c_rad = stream.c_rad;
+    const auto without = [&](auto& column) {
+      if (column.size() != c_rad.size()) return;
+      std::size_t i = 0;
+      std::erase_if(column, [&](auto) { return in_gap(c_rad[i++]); });
+    };
+    for (auto* one : {&stream.c_rad, &stream.reading_mm, &stream.position_mm, &stream.time_s})
+      without(*one);
+    for (auto& one : stream.more_reading_mm) without(one);
+    without(stream.pass);
+    without(stream.setup);
+    return stream;
+  };
+  const SpindleBench bench = three_sensors(17, 256.0);
+  const ProbeStream keyway = cut(bench.stream(), 50.0);
+  try {
+    separate_spindle({&keyway, 1}, exact_angles());
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("has no readings from C = 90."), std::string::npos)
+        << error.what();
+  }
+  // 4°: all orders that are there are fitted through it.
+  const ProbeStream mark = cut(bench.stream(), 4.0);
+  const SpindleResult result = separate_spindle({&mark, 1}, exact_angles());
+  EXPECT_TRUE(noted(result, "has no readings from C = 90."));
+  EXPECT_TRUE(holds(result.radial->sensitive.synchronous, range_mm(bench.along_x)));
 }
 
 TEST(SpindleDoubtsLaw, ReIndexingOfTheOtherSignOrForgottenIsRefused) {

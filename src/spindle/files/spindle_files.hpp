@@ -29,6 +29,9 @@ SpindleJob read_spindle_toml(const std::string& path);
 /// The result as JSON (schema trueaxis.spindle/1): lengths in mm, angles in degrees.
 std::string spindle_json(const SpindleResult& result, const SpindleOptions& options);
 
+/// "0.826 ± 0.029 µm", or "at most 0.03 µm (95 %)".
+std::string value_text(const Estimate& estimate, double k);
+
 /// "12.3 ± 0.4 nm, 57°", or "suppressed".
 std::string harmonic_text(const SpindleHarmonic& one, double k);
 

@@ -15,7 +15,7 @@ Json harmonic_json(const SpindleHarmonic& one) {
 }
 
 Json orders_json(const ErrorMotion& motion) {
-  const bool has_form = motion.form.determined();
+  const bool has_form = motion.form_seen();
   return list_of(motion.orders, [&](const SeparatedOrder& one) {
     Json json{{"order", one.order}, {"condition", number(one.condition)}};
     if (!one.suppressed.empty()) json["suppressed"] = one.suppressed;
@@ -61,8 +61,10 @@ Json motion_json(const ErrorMotion& motion, bool axial) {
   json["values"] = values_json(motion.sensitive);
   if (motion.across_seen) json["values_across"] = values_json(motion.across);
   if (axial) {
-    if (motion.fundamental.determined()) json["fundamental"] = to_json(motion.fundamental);
-    if (motion.residual.determined()) json["residual_synchronous"] = to_json(motion.residual);
+    if (motion.fundamental.determined()) {
+      json["fundamental"] = to_json(motion.fundamental);
+      json["residual_synchronous"] = to_json(motion.residual);
+    }
   }
   json["form"] = to_json(motion.form);
   json["suppressed"] = suppressed_json(motion);

@@ -55,7 +55,7 @@ std::string scrolled(const std::string& rows) {
 }
 
 std::string shown(const Estimate& estimate, double k) {
-  return estimate.determined() ? layout::plus_minus(estimate, k, 1.0 / mm_per_um, "µm") : "–";
+  return estimate.determined() || estimate.interval ? value_text(estimate, k) : "–";
 }
 
 std::string values_of(const ErrorMotion& motion, bool axial, double k) {
@@ -76,13 +76,13 @@ std::string values_of(const ErrorMotion& motion, bool axial, double k) {
   rows += row("synchronous", both(motion.sensitive.synchronous, motion.across.synchronous));
   rows += row("asynchronous", both(motion.sensitive.asynchronous, motion.across.asynchronous));
   rows += row("total", both(motion.sensitive.total, motion.across.total));
-  if (motion.form.determined())
+  if (motion.form_seen())
     rows += row(axial ? "form of the face" : "roundness of the part", {shown(motion.form, k)});
   return scrolled(rows);
 }
 
 std::string orders_of(const ErrorMotion& motion, double k) {
-  const bool form = motion.form.determined();
+  const bool form = motion.form_seen();
   std::vector<std::string> head{"condition"};
   if (form) head.push_back("form: amplitude ± U, phase");
   head.push_back("motion");
@@ -228,10 +228,6 @@ std::vector<double> times(double k, std::span<const double> values) {
   return out;
 }
 
-std::string value_of(const Estimate& estimate, double k) {
-  return layout::plus_minus(estimate, k, 1.0 / mm_per_um, "µm");
-}
-
 /// A plot of the motion and, where it is separated, one of the form; side by side from `left` on,
 /// or each at 0.
 std::vector<std::string> plots_of(const ErrorMotion& motion, bool axial, double k, double left,
@@ -246,14 +242,14 @@ std::vector<std::string> plots_of(const ErrorMotion& motion, bool axial, double 
   plot.band(curves.angle_rad, curves.motion_mm, times(k, curves.u_motion_mm));
   plot.line(curves.angle_rad, curves.motion_mm, "motion", "#c55a11");
   std::vector<std::string> plots{plot.svg("synchronous " +
-                                          value_of(motion.sensitive.synchronous, k) + ", total " +
-                                          value_of(motion.sensitive.total, k))};
+                                          value_text(motion.sensitive.synchronous, k) + ", total " +
+                                          value_text(motion.sensitive.total, k))};
   if (curves.form_mm.empty()) return plots;
   PolarPlot form(left + apart, axial ? "Form of the face" : "Form of the part",
                  largest_of(curves.form_mm));
   form.band(curves.angle_rad, curves.form_mm, times(k, curves.u_form_mm));
   form.line(curves.angle_rad, curves.form_mm, "form", "#1f4e79");
-  plots.push_back(form.svg(value_of(motion.form, k)));
+  plots.push_back(form.svg(value_text(motion.form, k)));
   return plots;
 }
 

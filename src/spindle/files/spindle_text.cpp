@@ -16,10 +16,6 @@ using fmt::format;
 using layout::padded;
 using layout::wrapped;
 
-std::string value(const Estimate& estimate, double k) {
-  return layout::plus_minus(estimate, k, 1.0 / mm_per_um, "µm");
-}
-
 /// "5, 10 to 12".
 std::string numbers(const std::vector<int>& orders) {
   std::string text;
@@ -79,25 +75,25 @@ std::string heading(const ErrorMotion& motion, bool axial) {
 std::string motion_text(const ErrorMotion& motion, bool axial, double k) {
   std::string text = heading(motion, axial);
   if (axial && motion.fundamental.determined()) {
-    text += "  fundamental    " + value(motion.fundamental, k) + '\n';
-    text += "  residual sync. " + value(motion.residual, k) + '\n';
+    text += "  fundamental    " + value_text(motion.fundamental, k) + '\n';
+    text += "  residual sync. " + value_text(motion.residual, k) + '\n';
   }
-  text += "  synchronous    " + padded(value(motion.sensitive.synchronous, k), 24);
-  if (motion.across_seen) text += "  across  " + value(motion.across.synchronous, k);
-  text += "\n  asynchronous   " + padded(value(motion.sensitive.asynchronous, k), 24);
-  if (motion.across_seen) text += "  across  " + value(motion.across.asynchronous, k);
-  text += "\n  total          " + padded(value(motion.sensitive.total, k), 24);
-  if (motion.across_seen) text += "  across  " + value(motion.across.total, k);
+  text += "  synchronous    " + padded(value_text(motion.sensitive.synchronous, k), 24);
+  if (motion.across_seen) text += "  across  " + value_text(motion.across.synchronous, k);
+  text += "\n  asynchronous   " + padded(value_text(motion.sensitive.asynchronous, k), 24);
+  if (motion.across_seen) text += "  across  " + value_text(motion.across.asynchronous, k);
+  text += "\n  total          " + padded(value_text(motion.sensitive.total, k), 24);
+  if (motion.across_seen) text += "  across  " + value_text(motion.across.total, k);
   text += '\n';
-  if (motion.form.determined())
-    text += (axial ? "  form of face   " : "  roundness      ") + value(motion.form, k) + '\n';
+  if (motion.form_seen())
+    text += (axial ? "  form of face   " : "  roundness      ") + value_text(motion.form, k) + '\n';
   return text + suppressed_text(motion);
 }
 
 std::string cell(const SpindleHarmonic& one, double k) { return padded(harmonic_text(one, k), 34); }
 
 std::string table(const ErrorMotion& motion, double k) {
-  const bool form = motion.form.determined();
+  const bool form = motion.form_seen();
   std::string text = "\n  order  condition  ";
   if (form) text += padded("form: amplitude ± U, phase", 34);
   text += padded("motion", 34) + (motion.across_seen ? "across" : "") + '\n';
@@ -143,6 +139,11 @@ std::string layout_text(std::span<const double> angles_rad, int order_min, int o
 }
 
 }  // namespace
+
+std::string value_text(const Estimate& estimate, double k) {
+  return layout::plus_minus(estimate, k, 1.0 / mm_per_um, "µm") +
+         (estimate.interval ? " (95 %)" : "");
+}
 
 std::string harmonic_text(const SpindleHarmonic& one, double k) {
   if (!one.determined()) return "suppressed";

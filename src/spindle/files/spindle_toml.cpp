@@ -14,7 +14,8 @@ void read_sensor(TomlTable table, SpindleJob& job) {
   const std::string trouble = csv_sensor_angles_trouble(degrees);
   if (!trouble.empty()) table.complain("angles_rad", trouble);
   job.options.u_angle_rad = table.number("u_angle_rad", default_u_angle_rad, Range::non_negative());
-  job.options.u_reindex_rad = table.number("u_reindex_rad", 0.0, Range::non_negative());
+  job.options.u_reindex_rad =
+      table.number("u_reindex_rad", default_u_angle_rad, Range::non_negative());
 }
 
 }  // namespace
