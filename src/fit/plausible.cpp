@@ -194,8 +194,7 @@ std::string unlike_noise(const ProbeStream& stream, const FitResult& fit) {
 
 void withhold_all(FitResult& fit, const std::string& why) {
   const auto withhold = [&](std::vector<FitParameter>& parameters) {
-    for (FitParameter& one : parameters)
-      one.estimate = {.unit = one.estimate.unit, .why_not = why};
+    for (FitParameter& one : parameters) one.estimate = {.unit = one.estimate.unit, .why_not = why};
   };
   withhold(fit.parameters);
   withhold(fit.derived);

@@ -223,26 +223,6 @@ TEST(FitNotes, AReadingBeyondSixSigmaIsSuspected) {
   EXPECT_NE(notes(6.5e-3).find("1 reading lies beyond 6 robust σ"), std::string::npos);
 }
 
-// A keyway of 18° moves the axis that all readings have by 2/N of its readings' depth; a chip of as
-// much moves it by less than U.
-TEST(FitNotes, AKeywayWithholdsTheAxis) {
-  const auto axis_known = [](std::size_t rows) {
-    std::mt19937_64 random(45);
-    std::normal_distribution<double> normal(0.0, 1e-3);
-    ProbeStream stream = cylinder(2880, 20.0, 0.1);
-    std::size_t cut = 0;
-    for (std::size_t i = 0; i < stream.size(); ++i) {
-      const bool in_keyway = std::cos(stream.c_rad[i]) > std::cos(two_pi / 40.0);
-      stream.reading_mm[i] += normal(random) - (in_keyway && ++cut <= rows ? 2.0 : 0.0);
-    }
-    FitResult result = fit(stream, of_cylinder());
-    withhold_if_drawn(stream, result);
-    return result.axis_known();
-  };
-  EXPECT_FALSE(axis_known(2880));
-  EXPECT_TRUE(axis_known(1));
-}
-
 // The axis of one clamping, and of that one alone.
 TEST(FitStart, ATiltIsOfOneClamping) {
   ProbeStream stream = cylinder(400, 8.0, 0.1);

@@ -43,7 +43,7 @@ double count_of(const std::vector<Hypothesis>& terms) {
 }
 
 /// Whether the second order of what turns that far is worth a parameter (Schwarz 1978): a slip has
-/// it, and the column of a delay has not.
+/// it, and the column of a delay does not.
 bool bends(double turned_rad, const IdealModel& ideal, const Joint& found) {
   const LinearisationPoint& point = ideal.point;
   const Axis& axis = ideal.fit.axis.axis;

@@ -117,7 +117,7 @@ double TurnedPasses::best(const ObservationMask& mask) const {
       own += row * row.transpose();
       count += 1.0;
     }
-    // Each has a zero of its own: what a play of the slide leaves between them is no delay.
+    // Each has a zero of its own: a play of the slide between them does not count as a delay.
     if (const double n = own(0, 0); n > 0.0) own -= Sums(own.col(0) * own.row(0) / n);
     own(0, 0) = 1.0;
   }

@@ -75,11 +75,11 @@ class Proposer {
   std::deque<Asked> asked_;
 };
 
-/// Erases what chance alone may have made: by p-values averaged over what the noise may also be.
+/// Erases what noise alone may have made, by p-values averaged over what the noise may also be.
 /// With ν readings beyond the columns the first partial correlation a is known to u = 1/√ν of
 /// artanh a (Fisher). If it is underestimated, all that is slow looks significant. Three nodes of a
 /// Gauss-Hermite rule.
-/// @param from what was proposed beside `terms`; the candidates are some of it
+/// @param from what was proposed after `terms`; the candidates are some of it
 void erase_chance(const Problem& problem, const Proposal& from, const std::vector<double>& phi,
                   const std::vector<Hypothesis>& terms, std::vector<Candidate>& list);
 
