@@ -2,7 +2,7 @@
 #include "spindle/resolved.hpp"
 
 #include <algorithm>
-#include <boost/random/beta_distribution.hpp>
+#include <boost/random/gamma_distribution.hpp>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_01.hpp>
@@ -16,8 +16,9 @@ using Eigen::Index;
 
 constexpr int chain_draws = 500, burn_in = 100;  // u to 3 %
 constexpr std::uint64_t chain_seed = 230'7;
+constexpr double rounding = 1e-300;  // a share is more than 0
 
-/// A Gibbs sampler of one series: turns of the angles, state and amplitudes of every order, share.
+/// A Gibbs sampler of one series: turns of the angles, size and amplitudes of every order, shares.
 class Chain {
  public:
   explicit Chain(const UncertainSeries& series) : series_(series) {
@@ -27,60 +28,61 @@ class Chain {
       if (u > 0.0) least = least > 0.0 ? std::min(least, u) : u;
       largest = std::max({largest, u, std::abs(series.harmonics[n])});
     }
+    squares_.push_back(0.0);
     if (least > 0.0)
       for (double size = 0.5 * least; size < 2.0 * largest; size *= 2.0)
         squares_.push_back(size * size);
+    shares_.assign(squares_.size(), 1.0 / static_cast<double>(squares_.size()));
   }
 
   Series sweep() {
     Series drawn = series_.harmonics;
     Eigen::VectorXcd turned(series_.moved_mm.cols());
     for (Complex& one : turned) one = normal_(engine_);
-    int present = 0, orders = 0;
+    std::vector<double> counts(shares_.size(), 1.0 / static_cast<double>(shares_.size()));
     for (std::size_t n = 0; n < drawn.size(); ++n) {
       if (series_.moved_mm.cols() > 0)
         drawn[n] -= (series_.moved_mm.row(static_cast<Index>(n)) * turned).value();
       if (!(series_.u_mm[n] > 0.0)) continue;
       drawn[n] += series_.u_not_noise_mm[n] * normal();
-      const double square = size_of(drawn[n], series_.u_mm[n]);
+      const std::size_t size = size_of(drawn[n], series_.u_mm[n]);
+      const double square = squares_[size];
+      counts[size] += 1.0;
       const double noise = series_.u_mm[n] * series_.u_mm[n];
       const double kept = square / (noise + square), u = std::sqrt(kept * noise);
       drawn[n] = kept * drawn[n] + u * normal();
-      present += square > 0.0;
-      ++orders;
     }
-    share_ =
-        boost::random::beta_distribution<double>(1.0 + present, 1.0 + orders - present)(engine_);
+    // Dirichlet, but for the sum, by which the draw of a size divides.
+    for (std::size_t k = 0; k < counts.size(); ++k)
+      shares_[k] = boost::random::gamma_distribution<double>(counts[k])(engine_);
     return drawn;
   }
 
  private:
-  /// τ² of a state drawn by its evidence, 0: the order is absent.
-  double size_of(Complex z, double u) {
+  /// Drawn by the evidence of each, 0: the order is absent.
+  std::size_t size_of(Complex z, double u) {
     const double noise = u * u, power = 0.5 * std::norm(z);
-    // exp(power/(noise + τ²) − power/noise) is at most 1: nothing overflows.
-    const auto evidence = [&](double square) {
-      return std::exp(power / (noise + largest()) - power / (noise + square)) / (noise + square);
-    };
-    sums_.assign(1, (1.0 - share_) * evidence(0.0));
-    for (const double square : squares_)
-      sums_.push_back(sums_.back() +
-                      share_ / static_cast<double>(squares_.size()) * evidence(square));
-    const double at = uniform_(engine_) * sums_.back();
-    const auto state =
-        static_cast<std::size_t>(std::ranges::upper_bound(sums_, at) - sums_.begin());
-    return state == 0 ? 0.0 : squares_[std::min(state, squares_.size()) - 1];
+    sums_.clear();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < squares_.size(); ++k) {
+      // exp(power/(noise + largest) − power/(noise + τ²)) is at most 1: nothing overflows.
+      const double variance = noise + squares_[k];
+      const double off = power / (noise + squares_.back()) - power / variance;
+      sums_.push_back(sum += (shares_[k] + rounding) * std::exp(off) / variance);
+    }
+    const double at = uniform_(engine_) * sum;
+    const auto size = std::ranges::upper_bound(sums_, at) - sums_.begin();
+    return std::min(static_cast<std::size_t>(size), squares_.size() - 1);
   }
   Complex normal() {
     const double real = normal_(engine_);
     return {real, normal_(engine_)};
   }
-  double largest() const { return squares_.back(); }
 
   const UncertainSeries& series_;
-  std::vector<double> squares_,
-      sums_;            ///< τ², from half the least u on, each four times that before
-  double share_ = 0.5;  ///< of orders that are there
+  std::vector<double> squares_;  ///< τ²: 0, then from half the least u on in steps of 4
+  std::vector<double> shares_;   ///< of orders of each size, up to a factor
+  std::vector<double> sums_;
   boost::random::mt19937_64 engine_{chain_seed};
   boost::random::normal_distribution<double> normal_;
   boost::random::uniform_01<double> uniform_;

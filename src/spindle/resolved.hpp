@@ -13,9 +13,9 @@ struct ResolvedSeries {
   std::vector<Series> drawn;
 };
 
-/// Draws of the series from its posterior (Eq. 433): an order is absent, or has amplitudes of a
-/// size, by the evidence of each, and the share of absent orders is that of all. Orders that the
-/// noise hides are absent in most draws, so that they do not make a range larger.
+/// Draws of the series from its posterior (Eq. 433): each order has amplitudes of a size, by the
+/// evidence of each, and the shares of the sizes are those of all orders. Orders that the noise
+/// hides are absent or small in most draws, so that they do not make a range larger.
 ResolvedSeries resolve(const UncertainSeries& series);
 
 }  // namespace trueaxis
