@@ -31,7 +31,7 @@ struct OrderSolution {
   Eigen::VectorXcd unknowns;       ///< zero where it is not determined
   Eigen::VectorXcd guessed;        ///< the shortest solution where it is not determined
   Eigen::VectorXd u_mm;            ///< of either component, but for the angles
-  Eigen::VectorXd u_not_noise_mm;  ///< what of it is from orders that fold and the second order
+  Eigen::VectorXd u_not_noise_mm;  ///< what of it is more than the noise of all orders
   /// What one u of every influence moves, unknowns by influences (Eq. 147).
   Eigen::MatrixXcd moved_mm;
   double chi_squared = 0.0, freedom = 0.0;        ///< of what channels contradict (both components)

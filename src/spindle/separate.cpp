@@ -21,7 +21,7 @@ constexpr double in_the_null_space = 1e-6;
 struct OrderReadings {
   VectorXcd z;
   MatrixXcd covariance;
-  Eigen::VectorXd not_noise_mm2;  ///< part of its diagonal
+  Eigen::VectorXd white_mm2;  ///< of its diagonal, what all orders have alike
 };
 
 OrderReadings readings_of(const Layout& layout, std::span<const SynchronousPart> parts, Index n,
@@ -39,9 +39,10 @@ OrderReadings readings_of(const Layout& layout, std::span<const SynchronousPart>
         out.covariance(i, j) = part.covariance[static_cast<std::size_t>(n)](
             static_cast<Index>(one.sensor), static_cast<Index>(other.sensor));
     }
-    out.not_noise_mm2[i] =
-        2.0 * remainder_mm * remainder_mm + part.folded_mm2[static_cast<Index>(one.sensor)];
-    out.covariance(i, i) += rounding_mm * rounding_mm + out.not_noise_mm2[i];
+    const auto sensor = static_cast<Index>(one.sensor);
+    out.white_mm2[i] = rounding_mm * rounding_mm + part.white_mm2[sensor];
+    out.covariance(i, i) +=
+        rounding_mm * rounding_mm + 2.0 * remainder_mm * remainder_mm + part.folded_mm2[sensor];
   }
   return out;
 }
@@ -113,9 +114,11 @@ class OrderSolver {
     out.read_mm2 = read.z.squaredNorm() / static_cast<double>(m);
     out.contradicted_mm2 = (read.z - matrix_ * out.unknowns).squaredNorm();
     const MatrixXcd covariance = gain * read.covariance * gain.adjoint();
-    out.u_mm = (0.5 * covariance.diagonal().real()).cwiseMax(0.0).cwiseSqrt() *
-               std::sqrt(widening(lines, m - rank));
-    out.u_not_noise_mm = (0.5 * gain.cwiseAbs2() * read.not_noise_mm2).cwiseSqrt();
+    const double wide = widening(lines, m - rank);
+    const Eigen::VectorXd squares = (0.5 * wide * covariance.diagonal().real()).cwiseMax(0.0);
+    const Eigen::VectorXd white = 0.5 * wide * gain.cwiseAbs2() * read.white_mm2;
+    out.u_mm = squares.cwiseSqrt();
+    out.u_not_noise_mm = (squares - white).cwiseMax(0.0).cwiseSqrt();
     out.moved_mm.resize(p, static_cast<Index>(influences.size()));
     for (std::size_t k = 0; k < influences.size(); ++k)
       out.moved_mm.col(static_cast<Index>(k)) =

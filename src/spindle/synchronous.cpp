@@ -287,7 +287,13 @@ SynchronousPart SynchronousFit::operator()(std::span<const std::vector<double>> 
         Eigen::Map<const Eigen::VectorXd>(left.data(), static_cast<Index>(left.size()));
   }
   add_covariance(part);
+  part.white_mm2.resize(sensors);
   part.folded_mm2.resize(sensors);
+  for (Index s = 0; s < sensors; ++s) {
+    std::vector<double> powers;
+    for (const Eigen::MatrixXcd& one : part.covariance) powers.push_back(one(s, s).real());
+    part.white_mm2[s] = median(std::move(powers)) * (1.0 + least_excess / std::sqrt(lines_wanted));
+  }
   for (Index s = 0; s < sensors; ++s)
     part.folded_mm2[s] =
         folded_mm2(solutions[static_cast<std::size_t>(s)], part.covariance.back()(s, s).real());

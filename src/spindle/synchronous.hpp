@@ -20,6 +20,8 @@ struct SynchronousPart {
   /// E[z zᴴ] of order n, sensors by sensors (Eq. 143): from the lines next to it.
   std::vector<Eigen::MatrixXcd> covariance;
   double freedom = 0.0;  ///< complex lines that a covariance is the mean of
+  /// E|z|² of noise that all orders have alike, for every sensor: what an order has more is motion.
+  Eigen::VectorXd white_mm2;
   /// E|z|² of higher orders that may fold into every order: that of the highest fitted.
   Eigen::VectorXd folded_mm2;
   Eigen::MatrixXd asynchronous_mm;  ///< readings by sensors: less what repeats and the drift

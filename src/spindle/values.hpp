@@ -33,7 +33,7 @@ Series second_order(const RunReadings& run, std::size_t sensor, double sensitive
 struct UncertainSeries {
   Series harmonics;          ///< of order 0 …
   std::vector<double> u_mm;  ///< of either component, from noise; independent between orders
-  std::vector<double> u_not_noise_mm;  ///< from orders that fold and the second order, likewise
+  std::vector<double> u_not_noise_mm;  ///< from what moves and folds, likewise
   Eigen::MatrixXcd moved_mm;           ///< orders by influences: what one u of each moves
 };
 

@@ -214,6 +214,29 @@ TEST(SpindleDoubtsLaw, AnInterruptedSectionIsRefusedByTheAnglesOfItsGap) {
   EXPECT_TRUE(holds(result.radial->sensitive.synchronous, range_mm(bench.along_x)));
 }
 
+// Five turns: motion of order 0.42 reaches the whole orders, and its leakage is not noise.
+TEST(SpindleDoubtsLaw, AsynchronousMotionOfAShortRecordingIsInU) {
+  int inside = 0;
+  constexpr int seeds = 20;
+  constexpr double part = 0.05;  // of the motion that repeats
+  for (int seed = 1; seed <= seeds; ++seed) {
+    SpindleBench bench(static_cast<std::uint64_t>(seed), 8);
+    bench.sensors_deg({0, 55, 113.2});
+    bench.passes({1}, 5.0, 128.0);
+    bench.scenario.noise.sigma_mm = 5e-6;
+    for (auto& one : bench.scenario.effects)
+      if (one.id == "spindle.radial_synchronous") one.parameters.at("amplitude_mm") *= part;
+    const double phase = 0.9 * seed;
+    for (const char* id : {"spindle.asynchronous", "extra.radial_motion_y"})
+      bench.scenario.effects.push_back(
+          {id, {{"order", 0.42}, {"amplitude_mm", 2e-4}, {"phase_rad", phase}}});
+    const MotionValues values = bench.separate().radial->sensitive;
+    inside += holds(values.synchronous, part * range_mm(bench.along_x));
+  }
+  std::cout << inside << " of " << seeds << " inside U\n";
+  EXPECT_GE(inside, 16);  // 95 %: 15 and fewer in 0.3 % of cases
+}
+
 TEST(SpindleDoubtsLaw, ReIndexingOfTheOtherSignOrForgottenIsRefused) {
   SpindleBench bench(7, 30);
   bench.passes({1, 2, 3, 4, 5}, 12.0, 128.0);
