@@ -139,6 +139,12 @@ ExtremeElement extreme_element(const Placed& gaussian, const PointCloud& cloud, 
   if (!chosen.all()) chosen.add(first, sides, -1e300);
   out.best = over_all(gaussian, cloud, sides, chosen, max_iterations);
   out.global = convex(gaussian.shape, criterion);
+  if (out.global && !out.best.converged) {  // of a short arc it is far from the Gaussian element
+    Placed middle = gaussian;
+    middle.offset = cloud.centroid, middle.size = cloud.length;
+    ++out.starts;
+    out.best = over_all(middle, cloud, sides, chosen, max_iterations);
+  }
   Sides both = sides;
   both.outer = both.inner = true;
   const double far = furthest(gaussian, chosen.cloud(), both).top;

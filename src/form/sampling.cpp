@@ -69,14 +69,16 @@ std::string sampling_trouble(const Trace& trace, const FormOptions& options) {
         "determine its circle",
         widest / rad_per_deg);
   if (options.filter == ProfileFilter::none) return "";
-  if (widest > (1.0 - kept_by) * two_pi && usual_step(trace) >= widest)
-    return fmt::format(
-        "{:.0f}° without a reading: a filter cannot bridge more than a quarter of a turn; "
-        "'--filter none' gives the range of the unfiltered readings",
-        widest / rad_per_deg);
-  if (turn_rounding * points_per_cycle(trace, two_pi / options.high_upr) < least_points_per_cycle)
-    return more_points(options.high_upr, usual_step(trace));
-  return "";
+  const double allowed = turn_rounding * two_pi / (options.high_upr * least_points_per_cycle);
+  if (usual_step(trace) <= allowed) return "";
+  const std::vector<Gap> gaps = gaps_of(trace, allowed);
+  if (2 * gaps.size() >= trace.size()) return more_points(options.high_upr, usual_step(trace));
+  double in_gaps = 0.0;
+  for (const Gap& gap : gaps) in_gaps += gap.length;
+  return fmt::format(
+      "{:.0f}° of the turn without a reading: a filter cannot bridge more than a quarter of it; "
+      "'--filter none' gives the range of the unfiltered readings",
+      in_gaps / rad_per_deg);
 }
 
 double followed_amplitude_mm(double upr, double radius_mm, double ball_mm, bool bore) {

@@ -10,6 +10,7 @@
 
 #include "associate/nearest_surface.hpp"
 #include "trueaxis/association.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -271,6 +272,24 @@ TEST(AssociationLaw, CircleOfThePlaneIsTheBestOfAll) {
     EXPECT_NEAR(associate(points, Element::circle, Criterion::minimum_zone).zone_mm, zone, 1e-11);
     EXPECT_NEAR(radius(Criterion::minimum_circumscribed), outer, 1e-11);
     EXPECT_NEAR(radius(Criterion::maximum_inscribed), inner, 1e-11);
+  }
+}
+
+// All points of an arc below half a turn lie in the circle about the middle of its chord, and its
+// ends are half a chord from there: none smaller holds both. It is far from the Gaussian circle.
+TEST(AssociationLaw, TheCircleAboutAShortArcHasItsChordAsDiameter) {
+  for (const double arc_deg : {0.8, 3.0, 10.0, 30.0, 120.0}) {
+    SCOPED_TRACE(arc_deg);
+    std::vector<Point3> points;
+    constexpr int count = 60;
+    for (int i = 0; i < count; ++i) {
+      const double at = arc_deg * rad_per_deg * i / (count - 1.0);
+      points.push_back({20.0 * std::cos(at), 20.0 * std::sin(at), 0.0});
+    }
+    const AssociatedFeature found =
+        associate(points, Element::circle, Criterion::minimum_circumscribed);
+    ASSERT_EQ(found.status, AssociationStatus::converged) << found.message;
+    EXPECT_NEAR(found.feature.radius_mm, 20.0 * std::sin(0.5 * arc_deg * rad_per_deg), 1e-9);
   }
 }
 

@@ -135,5 +135,21 @@ TEST(FormFilter, NothingReachesAcrossAGap) {
   ASSERT_EQ(gaps_of(trace, longest_step(1.0)).size(), 1U);
 }
 
+// 720 angles less five slots are not "18 readings per revolution", and more of them do not help.
+TEST(FormFilter, SlotsOfMoreThanAQuarterOfTheTurnAreNamed) {
+  const auto trouble_with = [](double slot_deg) {
+    Trace trace = turn_of(720);
+    std::erase_if(trace.at, [&](double at) {
+      return std::abs(std::remainder(at, two_pi / 5.0)) < 0.5 * slot_deg * rad_per_deg;
+    });
+    trace.value_mm.assign(trace.at.size(), 0.0);
+    return sampling_trouble(trace, {});
+  };
+  EXPECT_EQ(trouble_with(17.0), "");
+  EXPECT_NE(trouble_with(20.0).find("° of the turn without a reading"), std::string::npos)
+      << trouble_with(20.0);
+  EXPECT_NE(sampling_trouble(turn_of(100), {}).find("and there are 100"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace trueaxis::form

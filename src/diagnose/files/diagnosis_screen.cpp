@@ -31,8 +31,7 @@ std::string verdict_line(const Diagnosis& d) {
   const std::string known = axis_accuracy(d.extended);
   const std::string accuracy = known.empty() ? "" : ", " + known;
   if (d.verdict == DiagnosisVerdict::ideal)
-    return std::string("IDEAL: no deviation from an ideal ") + to_string(d.baseline.surface) +
-           " detected" + accuracy + "; " + rms;
+    return "IDEAL: " + ideal_words(d) + accuracy + "; " + rms;
   std::string text = d.verdict == DiagnosisVerdict::effects ? "EFFECTS: " : "UNEXPLAINED: ";
   text += fmt::format("{} deviation{} from an ideal {}", found + unexplained,
                       found + unexplained == 1 ? "" : "s", to_string(d.baseline.surface));
@@ -41,6 +40,12 @@ std::string verdict_line(const Diagnosis& d) {
 }
 
 }  // namespace
+
+std::string ideal_words(const Diagnosis& d) {
+  const std::size_t all = d.baseline.points, excluded = d.noise.masked.size();
+  return std::string("no deviation from an ideal ") + to_string(d.baseline.surface) + " detected" +
+         (excluded > 0 ? fmt::format(" in {} of {} readings", all - excluded, all) : "");
+}
 
 double rms_shown_mm(const Diagnosis& d) {
   return d.verdict != DiagnosisVerdict::ideal ? d.gain.rms_after_mm

@@ -36,7 +36,7 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
   const auto& diagnosis = result.diagnoses[i];
   const bool ideal = diagnosis && diagnosis->verdict == DiagnosisVerdict::ideal;
   text += ", residuals " + um(diagnosis && !ideal ? diagnosis->gain.rms_after_mm : fit.rms_mm) +
-          " RMS" + (ideal ? ", no deviation from an ideal " + surface + " detected" : "") + "\n";
+          " RMS" + (ideal ? ", " + ideal_words(*diagnosis) : "") + "\n";
   for (const std::string& note : result.fits[i].input_notes) text += "input  " + note + "\n";
   if (diagnosis) text += excluded_screen(*diagnosis);
   if (diagnosis && !ideal) text += findings_screen(*diagnosis, most_findings);
