@@ -288,7 +288,7 @@ TEST(AssociationLaw, TheCircleAboutAShortArcHasItsChordAsDiameter) {
     }
     const AssociatedFeature found =
         associate(points, Element::circle, Criterion::minimum_circumscribed);
-    ASSERT_EQ(found.status, AssociationStatus::converged) << found.message;
+    ASSERT_EQ(found.status, AssociationStatus::converged);
     EXPECT_NEAR(found.feature.radius_mm, 20.0 * std::sin(0.5 * arc_deg * rad_per_deg), 1e-9);
   }
 }
