@@ -50,13 +50,16 @@ const named = (quantities) => Object.entries(quantities).map(([name, quantity]) 
 const parameterTable = (caption, quantities, k) =>
   table(caption, ['Quantity', 'Value', 'u', `U (k${nbsp}=${nbsp}${tick(k)})`], named(quantities).map((p) => parameterRow(p, k)));
 
+/** How many readings count nowhere: the diagnosis may exclude some that the ideal fit has. */
+const excludedOf = (reference) => Math.max(reference.rejected.count, reference.diagnosis?.noise?.masked ?? 0);
+
 function statusBlock(reference) {
   const good = reference.status === 'converged';
   const size = (mm) => micrometres(mm);
   const list = [
     ['Status', pill(statusWords[reference.status] ?? reference.status, good)],
     ['Surface', `${reference.surface}${reference.feature === 'bore' ? ' (bore)' : ''}`],
-    ['Readings', `${reference.points}, ${reference.rejected.count} excluded`],
+    ['Readings', `${reference.points}, ${excludedOf(reference)} excluded`],
   ];
   if (good || reference.status === 'max_iterations') {
     list.push(['RMS of the residuals', size(reference.rms.value)],
@@ -98,8 +101,9 @@ function budgetChart(reference) {
     description: 'Share of each source in the variance of each parameter.', size: 'short', renderer: 'svg', build});
 }
 
-function rejectedBlock({count, listed}) {
-  if (count === 0) return paragraph('No reading was excluded.', 'quiet');
+function rejectedBlock(reference) {
+  const {count, listed} = reference.rejected, excluded = excludedOf(reference);
+  if (count === 0) return paragraph(excluded ? `The diagnosis excluded ${excluded}, the ideal fit none.` : 'No reading was excluded.', 'quiet');
   const more = count > listed.length ? ` The first ${listed.length} are listed, ${count - listed.length} more are not.` : '';
   return element('div', {}, paragraph(`${count} excluded ${count === 1 ? 'reading' : 'readings'}.${more}`, 'quiet'),
     table('Excluded readings: data row of the stream and reason', ['Row', 'Reason'], listed.map((r) => [String(r.row), r.why]), 2));
@@ -158,7 +162,7 @@ function formSection(reference, index) {
 
 /** The fit in a sentence. */
 function fitWords(reference) {
-  const {points, rejected: {count}, surface, feature, status} = reference;
+  const {points, surface, feature, status} = reference, count = excludedOf(reference);
   const words = `${points} readings of a ${surface}${feature === 'bore' ? ', a bore' : ''}, ${count ? `${count} excluded` : 'none excluded'}`;
   if (status !== 'converged' && status !== 'max_iterations') return `${words}: ${statusWords[status] ?? status}.`;
   return `${words}; residuals ${micrometres(reference.rms.value)} RMS of the ideal fit${isNumber(reference.diagnosis?.rms_shown_mm) ? `, ${micrometres(reference.diagnosis.rms_shown_mm)} of the final one` : ''}.`;
@@ -174,5 +178,5 @@ function referenceFold(reference, index) {
   const budget = reference.budget.length ? [budgetTable(reference)] : [];
   const measured = [reference.form && !reference.roundness ? partFormBlock(reference.form) : null, reference.datums ? datumsBlock(reference.datums, reference.association) : null].filter(Boolean);
   return fold(`reference-${index + 1}`, `Full results: ${reference.name}`, ...measured, statusBlock(reference), ...relative, tables, ...budget,
-    block('Excluded readings', rejectedBlock(reference.rejected)), ...(reference.roundness?.orders.length ? [roundnessTable(reference.roundness)] : []), ...chartBlocks(reference));
+    block('Excluded readings', rejectedBlock(reference)), ...(reference.roundness?.orders.length ? [roundnessTable(reference.roundness)] : []), ...chartBlocks(reference));
 }
