@@ -89,6 +89,7 @@ enum class ReasonCode {
   // What the model leaves open.
   not_reproduced,
   left_unexplained,
+  jump_left,
   pattern_with_axis,
   finding_with_axis,
   few_angles,

@@ -165,6 +165,11 @@ std::string_view template_of(ReasonCode code) {
        "{ref}the causes found leave a residual of {left:um:.2g} µm, while the {source} show a "
        "noise of {noise:um:.2g} µm: no cause or pattern explains the rest, which may shift the "
        "axis. Check whether the part slipped, clamp it again and probe again"},
+      {jump_left,
+       "{ref}at data row {row} the residual jumps by {size:um:.3g} µm, {times::.0f} times as far "
+       "as "
+       "neighbours usually differ: no noise does. A groove, a slot or an edge may draw the axis: "
+       "remove its readings from the stream and diagnose again"},
       {pattern_with_axis,
        "{ref}a pattern of {amplitude:um:.2g} µm near one undulation per revolution has no known "
        "cause and may be a shift of the axis: {remedies}"},

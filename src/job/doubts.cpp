@@ -11,6 +11,7 @@
 #include "base/angle.hpp"
 #include "fit/moved.hpp"
 #include "job/slip.hpp"
+#include "math/statistics.hpp"
 #include "measure/angles_alike.hpp"
 #include "measure/column_checks.hpp"
 #include "measure/passes.hpp"
@@ -22,6 +23,10 @@ namespace {
 constexpr Threshold much_left{"left", 1.5, "of the noise",
                               "5/9 of the sum of squares is not noise"};
 constexpr Threshold too_little{"left", 1e-4, "mm", "the last digit of a stream makes as much"};
+constexpr Threshold far_jump{"jump", 8.0, "σ of the difference of neighbours",
+                             "no noise, however slow, goes so far from one reading to the next"};
+constexpr Threshold jump_among{"among", 200, "readings",
+                               "fewer do not show how far neighbours usually differ"};
 constexpr Threshold least_beats{"beats", 3.0, "turns over a pass",
                                 "a line that beats less with the spindle is one with the axis"};
 constexpr Threshold enough_angles{"angles", least_angles, "1",
@@ -121,12 +126,28 @@ std::optional<Reason> moves_with_axis_of(const ProbeStream& stream, const Diagno
   return {};
 }
 
-std::optional<Reason> moved_in_pass_of(const ProbeStream& stream, const Diagnosis& diagnosis) {
+/// Residuals of the readings that count; NaN: one that does not.
+std::vector<double> left_of(const Diagnosis& diagnosis) {
   std::vector<double> left_mm = diagnosis.residual_after_mm;
-  for (const Rejected& outlier : diagnosis.noise.masked)  // it moves the centre of its turn
+  for (const Rejected& outlier : diagnosis.noise.masked)
     if (outlier.row >= 1 && outlier.row <= left_mm.size())
       left_mm[outlier.row - 1] = std::numeric_limits<double>::quiet_NaN();
-  return moved_reason(stream, left_mm, diagnosis.extended);
+  return left_mm;
+}
+
+std::optional<Reason> jump_left_of(const ProbeStream&, const Diagnosis& diagnosis) {
+  if (diagnosis.residual_after_mm.size() < static_cast<std::size_t>(jump_among.value)) return {};
+  const auto jump = largest_jump(left_of(diagnosis), far_jump.value);
+  if (!jump) return {};
+  return Reason{ReasonCode::jump_left,
+                {},
+                {{"size", std::abs(jump->size), "mm"},
+                 {"times", std::abs(jump->size) / jump->usual},
+                 {"row", static_cast<double>(jump->after + 1)}}};
+}
+
+std::optional<Reason> moved_in_pass_of(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  return moved_reason(stream, left_of(diagnosis), diagnosis.extended);
 }
 
 std::optional<Reason> slip_unsure_of(const ProbeStream&, const Diagnosis& diagnosis) {
@@ -163,6 +184,7 @@ std::optional<Reason> sensor_limit_in(const ProbeStream& stream, const Diagnosis
 }
 
 constexpr Threshold of_left[] = {much_left, too_little};
+constexpr Threshold of_jump[] = {far_jump, jump_among};
 constexpr Threshold of_beats[] = {least_beats};
 constexpr Threshold of_angles[] = {enough_angles, angles_apart};
 constexpr Threshold of_limit[] = {
@@ -191,6 +213,7 @@ Reasons find_axis_unknown(const CheckInput& in) {
 }  // namespace
 
 constinit const AxisDoubt left_unexplained{"left_unexplained", of_left, left_unexplained_of};
+constinit const AxisDoubt jump_left{"jump_left", of_jump, jump_left_of};
 
 constinit const JobCheck axis_known{
     "axis_known", CheckedAt::references, Weight::leaves_open, {}, find_axis_unknown};
@@ -198,8 +221,8 @@ constinit const JobCheck axis_known{
 std::span<const AxisDoubt* const> axis_doubts() {
   static constexpr std::array all{&statement_refuted,  &late_or_slipped,    &slip_unsure,
                                   &left_out_at_an_end, &far_off_at_the_end, &moves_in_pass,
-                                  &left_unexplained,   &moves_with_axis,    &few_angles,
-                                  &sensor_at_limit,    &gauge_inverted};
+                                  &left_unexplained,   &jump_left,          &moves_with_axis,
+                                  &few_angles,         &sensor_at_limit,    &gauge_inverted};
   return all;
 }
 

@@ -23,6 +23,7 @@ struct AxisDoubt {
 /// All that was found leaves half as much again as the noise that repeats, revolutions or a
 /// standing spindle show of it.
 extern const AxisDoubt left_unexplained;
+extern const AxisDoubt jump_left;
 
 /// The part leaves the wave of two undulations that its own eccentricity makes if the readings have
 /// the wrong sign.

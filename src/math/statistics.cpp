@@ -26,6 +26,21 @@ double student_widening(double freedom, double coverage_factor) {
   return quantile(complement(boost::math::students_t(freedom), above)) / coverage_factor;
 }
 
+std::optional<Jump> largest_jump(std::span<const double> values, double times) {
+  std::vector<double> steps;
+  Jump out;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double step = values[i] - values[i - 1];
+    if (!std::isfinite(step)) continue;
+    steps.push_back(step);
+    if (std::abs(step) > std::abs(out.size)) out.after = i, out.size = step;
+  }
+  if (steps.empty()) return {};
+  out.usual = mad_sigma(steps);
+  if (!(out.usual > 0.0) || std::abs(out.size) <= times * out.usual) return {};
+  return out;
+}
+
 double neighbour_correlation(std::span<const double> residuals, double clip) {
   if (residuals.size() < 3) return 0.0;
   const auto n = static_cast<Eigen::Index>(residuals.size());

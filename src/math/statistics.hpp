@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,16 @@ namespace trueaxis {
 /// Consistent estimate of a Gaussian σ from absolute deviations about zero: median(|r|) / Φ⁻¹(3/4).
 /// Eq. 28.
 double mad_sigma(std::span<const double> residuals);
+
+/// The largest difference of neighbours, if it is beyond `times` the MAD σ of all of them: whatever
+/// the noise and however slow, it does not go from one reading to the next at once (Eq. 63a).
+struct Jump {
+  std::size_t after = 0;  ///< index of the second of the two
+  double size = 0.0, usual = 0.0;
+};
+/// @param values NaN parts neighbours @returns none: nothing jumps, or most
+/// neighbours are equal, as when readings are rounded
+std::optional<Jump> largest_jump(std::span<const double> values, double times);
 
 /// Correlation of neighbours after clipping at ± `clip`; 0 for fewer than three values or none that
 /// vary.

@@ -108,18 +108,17 @@ TEST(Autoregression, FindsNothingInWhiteNoise) {
 }
 
 std::set<std::size_t> masked_rows(const Bench& b, const std::vector<double>& y) {
-  ObservationMask mask = b.mask;
+  const Outliers found =
+      find_outliers(b.point, small_fourier_legendre_basis(b.point, b.resolution), y, b.mask);
   std::set<std::size_t> out;
-  for (const Rejected& r :
-       mask_outliers(b.point, small_fourier_legendre_basis(b.point, b.resolution), y, mask))
-    out.insert(r.row - 1);
-  for (std::size_t i = 0; i < mask.used.size(); ++i) EXPECT_EQ(mask.used[i] == 0, out.contains(i));
+  for (const Rejected& r : found.list) out.insert(r.row - 1);
+  for (std::size_t i = 0; i < y.size(); ++i) EXPECT_EQ(found.mask.used[i] == 0, out.contains(i));
   return out;
 }
 
 // Far out is 8 σ of the MAD: chips of 20 σ are excluded among noise of one and lobes of 50 σ; of
 // 1500 white readings none comes near 8 σ.
-TEST(MaskOutliers, MasksChipsAndNothingElse) {
+TEST(FindOutliers, MasksChipsAndNothingElse) {
   const Bench b;
   std::vector<double> y = b.with_lobes(testing::white_noise(b.point.size(), sigma_mm, seed));
   EXPECT_TRUE(masked_rows(b, y).empty());
@@ -141,7 +140,7 @@ TEST(MaskOutliers, MasksChipsAndNothingElse) {
 }
 
 // A dent whose peak is 4.5 σ is a form and stays, noise and all.
-TEST(MaskOutliers, KeepsALocalDent) {
+TEST(FindOutliers, KeepsALocalDent) {
   const Bench b;
   std::vector<double> y = testing::white_noise(b.point.size(), sigma_mm, seed);
   std::size_t touched = 0;

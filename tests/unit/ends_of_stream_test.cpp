@@ -86,5 +86,22 @@ TEST(LeftUnexplained, MoreThanHalfAgainTheNoiseIsNoNoise) {
       << words_of(*found);
 }
 
+// Of 400 readings of noise no two neighbours differ by 8 σ of the difference, 11.3 σ of a reading:
+// p = 400 · 1e-15.
+TEST(JumpLeft, NoNoiseGoesSoFarToTheNextReading) {
+  JobResult result = with_noise(7);
+  Diagnosis& diagnosis = *result.diagnoses.front();
+  EXPECT_FALSE(jump_left({}, diagnosis));
+  for (std::size_t i = 100; i < 110; ++i) left_of(result)[i] += 20.0 * sigma_mm;
+  const auto found = jump_left({}, diagnosis);
+  ASSERT_TRUE(found);
+  const std::string words = words_of(*found);
+  EXPECT_TRUE(words.starts_with("at data row 101 the residual jumps") ||
+              words.starts_with("at data row 111 the residual jumps"))
+      << words;
+  for (std::size_t i = 100; i < 110; ++i) diagnosis.noise.masked.push_back({i + 1, ""});
+  EXPECT_FALSE(jump_left({}, diagnosis));
+}
+
 }  // namespace
 }  // namespace trueaxis

@@ -94,20 +94,22 @@ Masked masked_from(std::vector<double> left_mm, const ObservationMask& all,
 }
 
 /// Whether a reading is farther from the one before than any noise, however slow, takes it.
-bool jumps(const std::vector<double>& left_mm, const ObservationMask& mask) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < left_mm.size(); ++i)
-    if (mask.run[i] > 0) steps.push_back(left_mm[i] - left_mm[i - 1]);
-  if (steps.empty()) return false;
-  const double usual = mad_sigma(steps);  // 0 of readings that are rounded
-  return usual > 0.0 &&
-         std::ranges::any_of(steps, [&](double step) { return std::abs(step) > far_out * usual; });
+/// @param moves_s when the part moves
+bool jumps(const std::vector<double>& left_mm, const ObservationMask& mask,
+           std::span<const double> time_s, double moves_s) {
+  std::vector<double> connected;  // runs of readings that count, parted by NaN
+  const auto part = [&] { connected.push_back(std::numeric_limits<double>::quiet_NaN()); };
+  for (std::size_t i = 0; i < left_mm.size(); ++i) {
+    const bool moves = i > 0 && time_s[i - 1] < moves_s && moves_s <= time_s[i];
+    if (mask.run[i] == 0 || moves) part();
+    if (mask.used[i]) connected.push_back(left_mm[i]);
+  }
+  return largest_jump(connected, far_out).has_value();
 }
 
-/// The residuals about the two thirds of the readings that fit best (least trimmed squares;
-/// Rousseeuw and Van Driessen 2006, steps of concentration).
-std::vector<double> about_most(std::vector<double> left_mm, const ObservationMask& all,
-                               const LinearisationPoint& point, const Smooth& smooth) {
+/// The two thirds that fit best, by steps of concentration.
+ObservationMask concentrated(std::vector<double> left_mm, const ObservationMask& all,
+                             const LinearisationPoint& point, const Smooth& smooth) {
   ObservationMask most = all;
   for (int round = 0; round < 2 * looks; ++round) {
     std::vector<double> size;
@@ -123,7 +125,7 @@ std::vector<double> about_most(std::vector<double> left_mm, const ObservationMas
     most.find_runs(point);
     left_mm = smooth.left_by(most);
   }
-  return left_mm;
+  return most;
 }
 
 /// Whether the part is at the end of the stream where most of its readings have it: else it
@@ -143,26 +145,38 @@ bool ends_in_place(const Masked& of, const LinearisationPoint& point) {
 
 }  // namespace
 
-std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
-                                    std::span<const Hypothesis> basis,
-                                    std::span<const double> deviation_mm, ObservationMask& mask,
-                                    int threads) {
+Outliers find_outliers(const LinearisationPoint& point, std::span<const Hypothesis> basis,
+                       std::span<const double> deviation_mm, const ObservationMask& all,
+                       int threads, double moves_s) {
   const Smooth smooth(point, basis, deviation_mm, threads);
   const std::vector<double> ideal(deviation_mm.begin(), deviation_mm.end());
-  Masked found = masked_from(ideal, mask, point, smooth);
+  Masked found = masked_from(ideal, all, point, smooth);
   const auto jumps_in = [&](const Masked& of) {  // edges that recur are nearly a form of the part
-    return jumps(of.left_mm, of.mask) || jumps(ideal, of.mask);
+    return point.size() >= few_rows && (jumps(of.left_mm, of.mask, point.time, moves_s) ||
+                                        jumps(ideal, of.mask, point.time, moves_s));
   };
-  if (point.size() >= few_rows && jumps_in(found)) {
-    Masked about = masked_from(about_most(ideal, mask, point, smooth), mask, point, smooth);
-    if (about.count > 0 && !jumps_in(about) && ends_in_place(about, point))
+  const bool jumped = jumps_in(found);
+  bool still = jumped;
+  if (jumped) {
+    Masked about =
+        masked_from(smooth.left_by(concentrated(ideal, all, point, smooth)), all, point, smooth);
+    if (about.count > 0 && !jumps_in(about) && ends_in_place(about, point)) {
       found = std::move(about);
+      still = false;
+    }
   }
-  mask = std::move(found.mask);
-  std::vector<Rejected> list;
+  Outliers out{std::move(found.mask), {}, jumped, still};
   for (std::size_t i = 0; i < point.size() && found.count > 0; ++i)
-    if (!mask.used[i]) list.push_back(rejected(i, found.left_mm[i], found.sigma_mm));
-  return list;
+    if (!out.mask.used[i]) out.list.push_back(rejected(i, found.left_mm[i], found.sigma_mm));
+  return out;
+}
+
+ObservationMask nearest_two_thirds(const LinearisationPoint& point,
+                                   std::span<const Hypothesis> basis,
+                                   std::span<const double> deviation_mm, const ObservationMask& all,
+                                   int threads) {
+  const Smooth smooth(point, basis, deviation_mm, threads);
+  return concentrated(smooth.left_by(all), all, point, smooth);
 }
 
 std::vector<Rejected> mask_far_from(const LinearisationPoint& point,

@@ -19,6 +19,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+constexpr int dates_to_start = 8;
 constexpr int harmonics_of_rounding = 8;  // the others have a fifteenth of its square
 
 LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double ball_mm,
@@ -68,39 +69,66 @@ double alike_by_rounding(const Problem& problem, std::span<const double> reading
   return std::sqrt(std::max(sum, 0.0));
 }
 
-/// Masks the readings that do not count. A large step leaves those about it far from any smooth
+Problem without(const Problem& all, const ObservationMask& mask) {
+  return {all.point,       mask,        all.resolution, all.deviation_mm,
+          all.false_alarm, all.threads, all.most_terms, all.effects};
+}
+
+/// Steps dated among the two thirds of the readings nearest to the surface with a step there, until
+/// the date is the same: from dates all over the stream, because grooves draw one that is dated in
+/// all readings.
+std::vector<Hypothesis> dated_about_most(const Problem& all, std::vector<Hypothesis> basis) {
+  const std::span<const double> time = all.point.time;
+  std::vector<Hypothesis> out;
+  const auto known = [&](const Hypothesis& h) {
+    return std::ranges::find(out, h.shape.onset_s,
+                             [](const Hypothesis& o) { return o.shape.onset_s; }) != out.end();
+  };
+  double tests = 0.0;
+  const auto shift_in = [&](const Problem& readings) {
+    std::vector<Hypothesis> steps = scan_steps(readings, {}, basis, tests);
+    return steps.empty() ? std::optional<Hypothesis>() : std::move(steps.front());
+  };
+  std::optional<Hypothesis> step = shift_in(all);
+  for (int start = 1; step && start < dates_to_start; ++start) {
+    step->shape.onset_s =
+        std::lerp(time.front(), time.back(), static_cast<double>(start) / dates_to_start);
+    for (int look = 0; look < 4; ++look) {
+      basis.push_back(*step);
+      const ObservationMask most =
+          nearest_two_thirds(all.point, basis, all.deviation_mm, all.mask, all.threads);
+      basis.pop_back();
+      std::optional<Hypothesis> next = shift_in(without(all, most));
+      if (!next || next->shape.onset_s == step->shape.onset_s) break;
+      step = next;
+    }
+    if (!known(*step)) out.push_back(*step);
+  }
+  return out;
+}
+
+/// The readings that do not count. A large step leaves those about it far from any smooth
 /// form. If one of the steps dated in all readings takes back more than half of them, it joins what
 /// readings may deviate by.
-std::vector<Rejected> exclude(const Problem& problem, ObservationMask& mask) {
-  const LinearisationPoint& point = problem.point;
-  std::vector<Hypothesis> basis = small_fourier_legendre_basis(point, problem.resolution);
-  const auto with = [&](std::span<const Hypothesis> list, ObservationMask& to) {
-    return mask_outliers(point, list, problem.deviation_mm, to, problem.threads);
-  };
-  ObservationMask all = mask;
-  std::vector<Rejected> out = with(basis, mask);
-  if (out.empty() || is_condensed(point)) return out;
+Outliers exclude(const Problem& all) {
+  std::vector<Hypothesis> basis = small_fourier_legendre_basis(all.point, all.resolution);
+  Outliers out = find_outliers(all.point, basis, all.deviation_mm, all.mask, all.threads);
+  if ((out.list.empty() && !out.jumps) || is_condensed(all.point)) return out;
   double tests = 0.0;
-  const Problem unmasked{point,
-                         all,
-                         problem.resolution,
-                         problem.deviation_mm,
-                         problem.false_alarm,
-                         problem.threads,
-                         problem.most_terms,
-                         problem.effects};
-  std::optional<std::pair<std::vector<Rejected>, ObservationMask>> best;
-  for (const Hypothesis& step : scan_steps(unmasked, {}, basis, tests)) {
-    ObservationMask own = all;
+  std::size_t fewest = out.jumped ? out.list.size() * 3 / 4 : (out.list.size() + 1) / 2;
+  for (const Hypothesis& step :
+       out.jumped ? dated_about_most(all, basis) : scan_steps(all, {}, basis, tests)) {
     basis.push_back(step);
-    std::vector<Rejected> left = with(basis, own);
+    Outliers own = find_outliers(all.point, basis, all.deviation_mm, all.mask, all.threads,
+                                 step.shape.onset_s);
     basis.pop_back();
-    const std::size_t fewest = best ? best->first.size() : (out.size() + 1) / 2;
-    if (left.size() < fewest) best.emplace(std::move(left), std::move(own));
+
+    const bool better = out.jumps != own.jumps ? out.jumps : own.list.size() < fewest;
+    if (!better) continue;
+    fewest = own.list.size();
+    out = std::move(own);
   }
-  if (!best) return out;
-  mask = std::move(best->second);
-  return std::move(best->first);
+  return out;
 }
 
 }  // namespace
@@ -124,8 +152,10 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
               threads_of(options, measured),
               static_cast<std::size_t>(options.max_findings),
               causes_of(point.base, resolution, options.own_effects),
-              rounding_that_shows(indicated.step, deviation_mm)},
-      masked(exclude(problem, mask)) {
+              rounding_that_shows(indicated.step, deviation_mm)} {
+  Outliers out = exclude(problem);
+  mask = std::move(out.mask);
+  masked = std::move(out.list);
   mask.alike_mm = alike_by_rounding(problem, measured.reading_mm);
 }
 
