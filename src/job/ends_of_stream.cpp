@@ -63,7 +63,7 @@ std::size_t far_in_last(const std::vector<bool>& far) {
   return p * static_cast<double>(std::size(limits)) < off_by_chance.value ? here : 0;
 }
 
-/// Whether the readings left out of some have another diameter, as an undercut has: a slip would
+/// Whether the excluded of some readings have another diameter, as an undercut has: a slip would
 /// show there.
 bool is_other_diameter(const ProbeStream& stream, const Diagnosis& diagnosis, std::size_t begin,
                        std::size_t end, const std::vector<bool>& left_out) {
