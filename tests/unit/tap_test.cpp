@@ -61,7 +61,7 @@ TEST(Tap, IsSaidAlikeOnScreenAndPage) {
             std::string::npos);
 }
 
-// A face that is 10 µm higher at X 40 on one side than in the middle runs out 20 µm. Behind the
+// A face that is 10 µm higher at X 40 on one side than in the middle runs out 20 µm. Beyond the
 // axis the probe meets the high spot half a turn later.
 TEST(Tap, OfAFaceIsAtItsOuterEnd) {
   for (const double sign : {1.0, -1.0}) {

@@ -58,7 +58,7 @@ struct Tap {
   char along = 'Z';
 };
 
-/// Of a face what its tilt makes at the outer end: Z is largest where its normal leans away. Behind
+/// Of a face what its tilt makes at the outer end: Z is largest where its normal leans away. Beyond
 /// the spindle axis X is negative.
 Tap farthest(const FitResult& fit) {
   Tap out;
