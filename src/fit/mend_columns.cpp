@@ -106,6 +106,14 @@ void unwrap_reading(ProbeStream& stream) {
   double period = 10.0 * decade;
   for (const double digit : {5.0, 2.0, 1.0})
     if (digit * decade >= 0.999 * range) period = digit * decade;
+  // Where it begins anew, X goes on as it does elsewhere; the edge of a keyway does not.
+  double elsewhere = 0.0, anew = 0.0;
+  for (const double step : steps_of(x)) {
+    const double turns = std::round(step / period);
+    double& most = turns == 0.0 ? elsewhere : anew;
+    most = std::max(most, std::abs(step - turns * period));
+  }
+  if (anew > 2.0 * elsewhere) return;
   double added = 0.0, before = x.front();
   for (double& value : x) {
     added -= period * std::round((value - before) / period);

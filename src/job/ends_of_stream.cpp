@@ -5,9 +5,11 @@
 #include <iterator>
 #include <vector>
 
+#include "fit/moved.hpp"
 #include "job/doubts.hpp"
 #include "math/statistics.hpp"
 #include "measure/passes.hpp"
+#include "measure/sideways.hpp"
 
 namespace trueaxis {
 namespace {
@@ -17,6 +19,7 @@ constexpr Threshold mostly{"left_out", 0.5, "of a run", "most of it"};
 constexpr Threshold gathered{"gathered", 3.0, "times elsewhere", "outliers alone lie anywhere"};
 constexpr Threshold hardly{"by_chance", 1e-4, "of streams",
                            "that a short run is excluded as a whole"};
+constexpr Threshold least_slip{"slip", 0.01, "mm", "the smallest that is typical, which must show"};
 constexpr double limits[] = {3.0, 4.0};  // σ
 constexpr Threshold off_by_chance{"by_chance", 1e-3, "of streams",
                                   "for both limits together, Eq. 275"};
@@ -60,6 +63,21 @@ std::size_t far_in_last(const std::vector<bool>& far) {
   return p * static_cast<double>(std::size(limits)) < off_by_chance.value ? here : 0;
 }
 
+/// Whether the excluded of some readings have another diameter, as an undercut has: a slip would
+/// show there.
+bool is_other_diameter(const ProbeStream& stream, const Diagnosis& diagnosis, std::size_t begin,
+                       std::size_t end, const std::vector<bool>& left_out) {
+  if (diagnosis.residual_after_mm.size() != stream.size()) return false;
+  std::vector<double> c_rad, z_mm, off_mm;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!left_out[i]) continue;
+    c_rad.push_back(stream.c_rad[i]), z_mm.push_back(stream.position_mm[i]);
+    off_mm.push_back(diagnosis.residual_after_mm[i]);
+  }
+  const double within_mm = diagnosis.extended.axis_known() ? U_of_axis_mm(diagnosis.extended) : 0.0;
+  return sideways_of(c_rad, z_mm, off_mm).stays(within_mm, least_slip.value);
+}
+
 std::optional<Reason> left_out_at_end(const ProbeStream& stream, const Diagnosis& diagnosis) {
   if (stream.size() == 0) return {};
   std::vector<bool> left_out(stream.size(), false);
@@ -68,15 +86,19 @@ std::optional<Reason> left_out_at_end(const ProbeStream& stream, const Diagnosis
       if (r.row >= 1 && r.row <= stream.size()) left_out[r.row - 1] = true;
   for (const Pass& pass : find_passes(stream)) {
     const std::size_t size = pass.end - pass.begin;
+    const auto unproven = [&](std::size_t begin, std::size_t end) {
+      return begin < end && !is_other_diameter(stream, diagnosis, begin, end, left_out);
+    };
     const std::size_t last =
         left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
     const std::size_t first =
         left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
-    if (first + last > 0)
+    const bool at_last = unproven(pass.end - last, pass.end);
+    if (at_last || unproven(pass.begin, pass.begin + first))
       return Reason{ReasonCode::left_out_at_an_end,
                     {},
-                    {{"count", static_cast<double>(last > 0 ? last : first)}},
-                    {{"end", last > 0 ? "last" : "first"}}};
+                    {{"count", static_cast<double>(at_last ? last : first)}},
+                    {{"end", at_last ? "last" : "first"}}};
   }
   return {};
 }
@@ -102,7 +124,7 @@ std::optional<Reason> far_off_at_end(const ProbeStream&, const Diagnosis& diagno
   return {};
 }
 
-constexpr Threshold of_left_out[] = {mostly, gathered, hardly};
+constexpr Threshold of_left_out[] = {mostly, gathered, hardly, least_slip};
 constexpr Threshold of_far_off[] = {off_by_chance};
 
 }  // namespace

@@ -178,6 +178,7 @@ constexpr double groove_share = 1.0 / 3.0;  // of both neighbours
 constexpr std::size_t most_seats = 12;      // more are a thread or no part
 constexpr std::size_t turns_at_an_end = 5;  // that tell how a seat goes on
 constexpr double follows = 6.0;             // σ of the readings about them
+constexpr double rolls_off = 2.0;           // the same: next to an edge the ball is over it
 constexpr double beyond_share = 0.25;       // of the spacing: a range ends there at the latest
 constexpr double one_um_mm = 1e-3;
 constexpr std::size_t off_in_a_row = 3;  // readings that end a seat
@@ -208,9 +209,10 @@ class Continued {
     circle_ = robust_circle(level, readings);
   }
 
-  bool holds(std::size_t i) const {
+  /// How far off a reading is, in σ of the readings about them.
+  double off(std::size_t i) const {
     const double expected = circle_.at(stream_.c_rad[i]) + slope_ * (stream_.position_mm[i] - z_);
-    return std::abs(stream_.reading_mm[i] - expected) <= follows * circle_.scatter_mm;
+    return std::abs(stream_.reading_mm[i] - expected) / circle_.scatter_mm;
   }
 
  private:
@@ -247,18 +249,27 @@ double end_of(const ProbeStream& stream, const SeatProfile& profile, const Stret
     if (sign * stream.position_mm[i] >= inside && sign * stream.position_mm[i] <= reach)
       beyond.push_back(i);
   std::ranges::stable_sort(beyond, {}, [&](std::size_t i) { return sign * stream.position_mm[i]; });
-  double last = inside, next = std::numeric_limits<double>::infinity();
+  constexpr double nowhere_mm = std::numeric_limits<double>::infinity();
+  double last = inside, next = nowhere_mm;     // to where readings follow
+  double level = inside, leaves = nowhere_mm;  // to where the ball is clear of an edge
   std::size_t off = 0;
   for (const std::size_t i : beyond) {
     const double z = sign * stream.position_mm[i];
-    if (seat.holds(i)) {
-      last = z, off = 0;
+    if (!(seat.off(i) > follows)) {
+      last = z, off = 0, next = nowhere_mm;
+      if (!(seat.off(i) > rolls_off))
+        level = z, leaves = nowhere_mm;
+      else
+        leaves = std::min(leaves, z);
       continue;
     }
-    if (off == 0) next = z;
+    next = std::min(next, z), leaves = std::min(leaves, z);
     if (++off == off_in_a_row) break;
   }
-  if (off < off_in_a_row) next = std::numeric_limits<double>::infinity();
+  if (off < off_in_a_row)
+    next = nowhere_mm;
+  else
+    last = level, next = leaves;
   next = std::min(next, last + beyond_share * profile.spacing_mm);
   return sign * shortest_number(last, next);
 }

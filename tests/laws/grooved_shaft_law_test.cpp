@@ -71,6 +71,39 @@ TEST(GroovedShaft, HasTheAxisOfItsLandsAfterASlip) {
   }
 }
 
+/// Undercuts of 2 mm at both ends of a pass of 20 mm.
+ProbeStream undercut(const Scenario& scenario) {
+  return cut_away(scenario, 0.2, [](double, double z_mm) { return z_mm < 12.0 || z_mm > 28.0; });
+}
+
+// Most readings at an end are excluded there, and it was not known whether the part had slipped.
+TEST(UndercutShaft, HasTheAxisOfItsLand) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    const Scenario scenario = turned_cylinder(seed, 20.0, 0.0005);
+    const ProbeStream cut = undercut(scenario);
+    const Diagnosis diagnosis = diagnosed_cylinder(cut);
+    const auto why = why_axis_unknown(cut, diagnosis);
+    EXPECT_FALSE(why) << words_of(*why);
+    EXPECT_EQ(diagnosis.verdict, DiagnosisVerdict::ideal);
+    expect_axis_after(scenario, 0.0, 0.0, 30.0, diagnosis);
+  }
+}
+
+TEST(UndercutShaft, IsNotKnownIfItSlipsThere) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    Scenario scenario = turned_cylinder(seed, 20.0, 0.0005);
+    scenario.effects = {{"part.slip",
+                         {{"time_s", 0.91 * simulate(scenario).time_s.back()},
+                          {"dx_mm", 0.02},
+                          {"dy_mm", 0.03},
+                          {"turn_rad", 0.0}}}};
+    const ProbeStream cut = undercut(scenario);
+    EXPECT_TRUE(why_axis_unknown(cut, diagnosed_cylinder(cut)));
+  }
+}
+
 TEST(SlottedShaft, HasTheAxisOfItsLands) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SCOPED_TRACE(seed);

@@ -77,6 +77,18 @@ TEST(MisreadColumns, AReadingThatRestartsAtTheEndOfItsDialIsMadeContinuous) {
   }
 }
 
+// Depth and run-out of a keyway come near the range of a display, but X does not go on at its edges
+// as elsewhere: 0.1 mm are left of 0.4, and elsewhere it goes 0.05 mm · 2π/36 from one to the next.
+TEST(MisreadColumns, AKeywayIsNoEndOfADial) {
+  ProbeStream keyway = run_out();
+  for (double& x : keyway.reading_mm) x = 20.0 + 0.05 / 0.09 * 0.7 * (x - 20.0);
+  for (std::size_t i = 0; i < keyway.size(); ++i)
+    if (std::abs(std::remainder(keyway.c_rad[i] - 1.0, two_pi)) < 0.3) keyway.reading_mm[i] -= 0.4;
+  const ProbeStream as_written = keyway;
+  unwrap_reading(keyway);
+  EXPECT_EQ(keyway.reading_mm, as_written.reading_mm);
+}
+
 // The largest wave then turns once per revolution. Over 20 revolutions the periodogram of one wave
 // has its peak at its order, to within the wave of the opposite sense: 1/(4π · 20)² of an order
 // or, with a line subtracted, a few times that. A step of the search is 0.25/20 of an order. The

@@ -248,6 +248,26 @@ TEST(Seats, AGrooveOrAGapBetweenTwoSeatsOfOneDiameter) {
   EXPECT_FALSE(gap.broken());
 }
 
+// A ball of 1 mm rolls off the edge of a groove at Z 18 and 22: its centre is there, and it is
+// lower by 1 − √(1 − d²) at d beyond. What is off by more than 3 σ is not of the seat, but for a
+// reading or three that noise brings back: to 6 σ there are five.
+TEST(Seats, TheBallIsClearOfTheEdges) {
+  constexpr double noise_mm = 0.001;
+  const auto radius = [](double z, double) {
+    const double beyond = std::min(z - 18.0, 22.0 - z);
+    return 20.0 - (beyond <= 0.0   ? 0.0
+                   : beyond >= 0.8 ? 0.4
+                                   : 1.0 - std::sqrt(1.0 - beyond * beyond));
+  };
+  const Seats found = seats_of({.noise_mm = noise_mm}, radius);
+  ASSERT_EQ(found.seats.size(), 2u);
+  const double off_3_sigma_mm = std::sqrt(2.0 * 3.0 * noise_mm), between_mm = 0.5 / 72.0;
+  EXPECT_LT(found.seats[0].z.to_mm, 18.0 + off_3_sigma_mm + 4.0 * between_mm);
+  EXPECT_GT(found.seats[1].z.from_mm, 22.0 - off_3_sigma_mm - 4.0 * between_mm);
+  EXPECT_NEAR(found.seats[0].z.to_mm, 18.0, 0.5);  // a turn
+  EXPECT_NEAR(found.seats[1].z.from_mm, 22.0, 0.5);
+}
+
 TEST(Seats, AChamferAtTheEndIsNoSeat) {
   const Seats found = seats_of({}, [](double z, double) { return 20 - std::max(0.0, z - 38); });
   ASSERT_EQ(found.seats.size(), 1u);

@@ -61,6 +61,28 @@ TEST(Tap, IsSaidAlikeOnScreenAndPage) {
             std::string::npos);
 }
 
+// A face that is 10 µm higher at X 40 on one side than in the middle runs out 20 µm. Beyond the
+// axis the probe meets the high spot half a turn later.
+TEST(Tap, OfAFaceIsAtItsOuterEnd) {
+  for (const double sign : {1.0, -1.0}) {
+    ProbeStream face;
+    face.kind = StreamKind::face;
+    face.source = "face.csv";
+    for (int i = 0; i <= 400; ++i) {
+      const double x_mm = sign * (10.0 + 0.075 * i), c_rad = 0.61 * i;
+      face.c_rad.push_back(c_rad), face.position_mm.push_back(x_mm);
+      face.reading_mm.push_back(5.0 + 0.01 * x_mm / 40.0 * std::cos(c_rad - 123.0 * rad_per_deg) +
+                                noise_mm * std::sin(7.7 * i));
+    }
+    FitOptions options;
+    options.surface = SurfaceKind::plane;
+    const std::string text = tap_text(fit(face, options));
+    EXPECT_TRUE(text.starts_with(sign > 0.0 ? "high spot at C = 123°, run-out 20 µm at X 40 mm"
+                                            : "high spot at C = 303°, run-out 20 µm at X -40 mm"))
+        << text;
+  }
+}
+
 TEST(Tap, IsNotSaidOfWhatIsNotKnown) {
   FitResult result = fitted(probed(30.0, 1.0));
   result.status = FitStatus::rank_deficient;

@@ -8,6 +8,7 @@
 
 #include "diagnose/regression/noise.hpp"
 #include "math/statistics.hpp"
+#include "measure/sideways.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -130,7 +131,7 @@ ObservationMask concentrated(std::vector<double> left_mm, const ObservationMask&
 
 /// Whether the part is at the end of the stream where most of its readings have it: else it
 /// slipped, and it is what lies far off that counts. Most of the last revolution lies there, and no
-/// more in a row is far off at the end than before.
+/// more in a row is far off at the end than before; or what is off there has another diameter.
 bool ends_in_place(const Masked& of, const LinearisationPoint& point) {
   const std::size_t end = point.size();
   std::size_t in_row = 0, longest = 0, used = 0, counted = 0;
@@ -140,7 +141,13 @@ bool ends_in_place(const Masked& of, const LinearisationPoint& point) {
   }
   for (std::size_t i = end; i-- > 0 && std::abs(point.c[i] - point.c[end - 1]) < two_pi; ++counted)
     used += of.mask.used[i] ? 1 : 0;
-  return 2 * used >= counted && in_row <= longest;
+  if (2 * used >= counted && in_row <= longest) return true;
+  std::vector<double> c_rad, z_mm, off_mm;
+  for (std::size_t i = end - std::max(in_row, counted); i < end; ++i) {
+    if (of.mask.used[i]) continue;
+    c_rad.push_back(point.c[i]), z_mm.push_back(point.z[i]), off_mm.push_back(of.left_mm[i]);
+  }
+  return sideways_of(c_rad, z_mm, off_mm).stays(0.0, far_out * of.sigma_mm);
 }
 
 }  // namespace

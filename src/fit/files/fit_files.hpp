@@ -43,9 +43,9 @@ std::string fit_screen(const FitResult& result);
 std::string axis_screen(const FitResult& result);
 
 /// For those without a servo: at which C the part is out towards the probe, at the end that is
-/// farther off, and how far to tap it there. The run-out is twice the distance of the axis; a probe
-/// at the rear meets the high spot half a turn later. Empty where the offset is within twice its U,
-/// of a plane, and where nothing was fitted.
+/// farther off, and how far to tap it there. The run-out is twice the distance of the axis, of a
+/// face twice what its tilt makes at X; a probe at the rear meets the high spot half a turn later.
+/// Empty where the offset is within twice its U, and where nothing was fitted.
 std::string tap_text(const FitResult& result);
 
 /// "tap    The cone runs out 129 µm at Z 0 mm: tap at C = 16° by 64.7 µm", the line of a screen

@@ -54,33 +54,46 @@ std::string why_unknown(const FitResult& fit) {
 namespace {
 
 struct Tap {
-  double c_deg = 0.0, off_mm = 0.0, z_mm = 0.0;
+  double c_deg = 0.0, off_mm = 0.0, at_mm = 0.0;
+  char along = 'Z';
 };
 
-std::optional<Tap> tap_of(const FitResult& fit) {
-  if (!fit.axis_known() || fit.surface == SurfaceKind::plane) return std::nullopt;
-  double farthest_mm = 0.0, at_z_mm = 0.0, towards_rad = 0.0;
-  for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
-    const auto at = fit.axis.axis.at(z);
+/// Of a face what its tilt makes at the outer end: Z is largest where its normal leans away. Beyond
+/// the spindle axis X is negative.
+Tap farthest(const FitResult& fit) {
+  Tap out;
+  double towards_rad = 0.0;
+  const bool face = fit.surface == SurfaceKind::plane;
+  if (face) out.along = 'X';
+  for (const double end_mm : {fit.position_min_mm, fit.position_max_mm}) {
+    const Axis& axis = fit.axis.axis;
+    const auto at =
+        face ? std::array{-end_mm * axis.slope_x, -end_mm * axis.slope_y} : axis.at(end_mm);
     const double off_mm = std::hypot(at[0], at[1]);
-    if (off_mm <= farthest_mm) continue;
-    farthest_mm = off_mm;
-    at_z_mm = z;
+    if (off_mm <= out.off_mm) continue;
+    out.off_mm = off_mm, out.at_mm = hundredths(end_mm);
     towards_rad = std::atan2(at[1], at[0]);
   }
-  if (!(farthest_mm > 2.0 * fit.coverage_factor * fit.axis.u_at(at_z_mm))) return std::nullopt;
-  const bool rear = !fit.set_ups.empty() && fit.set_ups.back().side == Root::rear;
-  const double c_deg =
-      std::fmod(std::round(towards_rad / rad_per_deg) + (rear ? 540.0 : 360.0), 360.0);
-  return Tap{c_deg, farthest_mm, hundredths(at_z_mm)};
+  const bool rear = !face && !fit.set_ups.empty() && fit.set_ups.back().side == Root::rear;
+  out.c_deg = std::fmod(std::round(towards_rad / rad_per_deg) + (rear ? 540.0 : 360.0), 360.0);
+  return out;
+}
+
+std::optional<Tap> tap_of(const FitResult& fit) {
+  if (!fit.axis_known()) return std::nullopt;
+  const Tap tap = farthest(fit);
+  const double u_mm =
+      tap.along == 'X' ? std::abs(tap.at_mm) * fit.axis.u_slopes() : fit.axis.u_at(tap.at_mm);
+  return tap.off_mm > 2.0 * fit.coverage_factor * u_mm ? std::optional(tap) : std::nullopt;
 }
 
 }  // namespace
 
 std::string tap_text(const FitResult& fit) {
   const auto tap = tap_of(fit);
-  return tap ? fmt::format("high spot at C = {:.0f}°, run-out {} at Z {:.6g} mm: tap there by {}",
-                           tap->c_deg, um(2.0 * tap->off_mm), tap->z_mm, um(tap->off_mm))
+  return tap ? fmt::format("high spot at C = {:.0f}°, run-out {} at {} {:.6g} mm: tap there by {}",
+                           tap->c_deg, um(2.0 * tap->off_mm), tap->along, tap->at_mm,
+                           um(tap->off_mm))
              : "";
 }
 
@@ -88,9 +101,9 @@ std::string tap_screen(const FitResult& fit, const std::string& name) {
   const auto tap = tap_of(fit);
   // "A" is a name, "cone seat" a word.
   const bool word = !name.empty() && std::islower(static_cast<unsigned char>(name.front())) != 0;
-  return tap ? fmt::format("tap    {}{} runs out {} at Z {:.6g} mm: tap at C = {:.0f}° by {}\n",
-                           word ? "The " : "", name, um(2.0 * tap->off_mm), tap->z_mm, tap->c_deg,
-                           um(tap->off_mm))
+  return tap ? fmt::format("tap    {}{} runs out {} at {} {:.6g} mm: tap at C = {:.0f}° by {}\n",
+                           word ? "The " : "", name, um(2.0 * tap->off_mm), tap->along, tap->at_mm,
+                           tap->c_deg, um(tap->off_mm))
              : "";
 }
 
