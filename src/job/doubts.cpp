@@ -135,10 +135,23 @@ std::vector<double> left_of(const Diagnosis& diagnosis) {
   return left_mm;
 }
 
+/// Whether the residual stays at another level after a jump, as at an edge: the medians of three
+/// differ by half of it. A spike comes back.
+bool is_edge(std::span<const double> left_mm, const Jump& jump) {
+  std::vector<double> before, after;
+  for (std::size_t i = jump.after; i-- > 0 && before.size() < 3;)
+    if (std::isfinite(left_mm[i])) before.push_back(left_mm[i]);
+  for (std::size_t i = jump.after; i < left_mm.size() && after.size() < 3; ++i)
+    if (std::isfinite(left_mm[i])) after.push_back(left_mm[i]);
+  return std::abs(median(std::move(after)) - median(std::move(before))) > 0.5 * std::abs(jump.size);
+}
+
 std::optional<Reason> jump_left_of(const ProbeStream&, const Diagnosis& diagnosis) {
   if (diagnosis.residual_after_mm.size() < static_cast<std::size_t>(jump_among.value)) return {};
-  const auto jump = largest_jump(left_of(diagnosis), far_jump.value);
-  if (!jump) return {};
+  const std::vector<double> left_mm = left_of(diagnosis);
+  const auto jump = largest_jump(left_mm, far_jump.value);
+  if (!jump || std::abs(jump->size) <= U_of_axis_mm(diagnosis.extended) || !is_edge(left_mm, *jump))
+    return {};
   return Reason{ReasonCode::jump_left,
                 {},
                 {{"size", std::abs(jump->size), "mm"},

@@ -101,6 +101,8 @@ TEST(JumpLeft, NoNoiseGoesSoFarToTheNextReading) {
       << words;
   for (std::size_t i = 100; i < 110; ++i) diagnosis.noise.masked.push_back({i + 1, ""});
   EXPECT_FALSE(jump_left({}, diagnosis));
+  left_of(result)[200] += 20.0 * sigma_mm;
+  EXPECT_FALSE(jump_left({}, diagnosis)) << "a spike";
 }
 
 }  // namespace
