@@ -123,10 +123,10 @@ TEST_F(MeasurementMistakes, OneOfTwoToolLengths) {
   expect_refused({"if the tool of 120 mm is 200 µm shorter against the others"});
 }
 
-// A scale of 0.5 mm per m fits as an error that no machine has, 144 µm over 500 mm.
+// A scale of 0.5 mm per m fits as an error that no machine has, EYY of 79 µm RMS.
 TEST_F(MeasurementMistakes, AComponentErrorBeyondAnyMachineIsNotDone) {
   rows([](Fields& at) {
-    at["dX"] = std::to_string(std::stod(at["dX"]) + 0.5 * std::stod(at["X"]));
+    at["dY"] = std::to_string(std::stod(at["dY"]) + 0.5 * std::stod(at["Y"]));
   });
   const CommandStreams done =
       command("machine calibrate --machine " + machine_ + " wrong.csv -o wrong.toml");

@@ -169,5 +169,56 @@ TEST(CalibrateCoverage, FollowsTheSizeThatTheDataShow) {
   EXPECT_LT(none.tips.u_square / none.tips.all, 0.1 * fine.tips.u_square / fine.tips.all);
 }
 
+/// Errors of C alone, amounts of orders 1 to 4 as Eq. 210 has them. Sizes are twice the plausible
+/// ones, by a factor of 2 from each other, the same along X and Y.
+ErrorModel errors_of_c(Draw& draw) {
+  ErrorModel errors;
+  std::normal_distribution<double> normal;
+  constexpr double squares = 1.0 + 1.0 / 4.0 + 1.0 / 9.0 + 1.0 / 16.0;
+  for (const bool angular : {false, true}) {
+    const double rms = (angular ? 24e-6 : 4e-3) * std::pow(2.0, normal(draw.engine));
+    for (const std::size_t direction : {0, 1}) {
+      FourierError fourier;
+      for (int n = 1; n <= 4; ++n)
+        fourier.terms.push_back({static_cast<double>(n),
+                                 normal(draw.engine) * rms / (n * std::sqrt(squares)),
+                                 normal(draw.engine) * rms / (n * std::sqrt(squares))});
+      errors.terms.push_back(
+          {{true, direction + (angular ? 3 : 0), index_of(AxisName::C)}, fourier, 0.0});
+    }
+  }
+  return errors;
+}
+
+// On a head, a line of C that is off and order 1 of EXC and EYC read alike. So do its tilt and
+// order 1 of EAC and EBC. U of the four thus rests on the sizes of these errors. Two numbers of a
+// machine are drawn: fewer than 95 % are within U with a probability of 1 in 2000 (binomial).
+TEST(CalibrateCoverage, CountsOrderOneOfAHeadThatActsLikeItsLine) {
+  constexpr int machines = 120;
+  int inside = 0;
+  for (int i = 0; i < machines; ++i) {
+    Draw draw(static_cast<std::uint64_t>(7000 + i));
+    const Machine machine = shop_machine("w X' Y' b Z C B t", draw);
+    auto plan = shop_plan(machine, false, 1e-3, draw);
+    const ErrorModel truth = errors_of_c(draw);
+    std::vector<MachineMeasurement> data;
+    for (const double length : {120.0, 190.0}) {
+      plan.tool_length_mm = length;
+      ++plan.seed;
+      data.push_back(measured(machine, truth, plan));
+    }
+    const Calibration found = calibrate(machine, data);
+    const bool along_x = draw.whole(0, 1) == 0;
+    for (const CalibratedParameter& one : found.parameters)
+      if (one.name == (along_x ? "X0C" : "Y0C") || one.name == (along_x ? "B0C" : "A0C"))
+        inside += std::abs(one.estimate.value) <= 2.0 * one.estimate.u ? 1 : 0;
+  }
+  const double high =
+      boost::math::binomial_distribution<>::find_upper_bound_on_p(2 * machines, inside, 5e-4);
+  std::cout << "line of a head: " << inside << " of " << 2 * machines << " inside U (at most "
+            << high << ")\n";
+  EXPECT_GE(high, 0.95);
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

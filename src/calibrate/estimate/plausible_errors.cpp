@@ -44,6 +44,13 @@ void add_harmonics(PlausibleError& error) {
   }
 }
 
+/// Whether two errors are of one rotary axis across it, both lengths or both angles.
+bool are_radial_pair(const ErrorName& a, const ErrorName& b) {
+  constexpr std::size_t first_rotary = 3;
+  return a.body == b.body && b.body >= first_rotary && a.angular() == b.angular() &&
+         a.direction % 3 != a.body % 3 && b.direction % 3 != b.body % 3;
+}
+
 }  // namespace
 
 double mean_square(const UncertainAmount& amount) {
@@ -57,17 +64,20 @@ std::vector<PlausibleError> plausible_errors(const Problem& problem,
                                              const PlausibleSizes& sizes) {
   std::vector<PlausibleError> out;
   for (const MachineAxis& axis : problem.machine->axes)
-    for (std::size_t direction = 0; direction < 6; ++direction) {
+    for (std::size_t i = 0; i < 6; ++i) {
       const bool rotary = is_rotary(axis.name);
+      // Of a rotary axis the two directions across it follow each other: they share a size.
+      const std::size_t first = rotary ? index_of(axis.name) % 3 + 1 : 0;
       PlausibleError error;
-      error.name = {true, direction, index_of(axis.name)};
+      error.name = {true, i / 3 * 3 + (first + i) % 3, index_of(axis.name)};
       if (std::ranges::find(known, error.name) != known.end()) continue;
       error.plausible = sizes.of(rotary, error.name.angular());
       if (rotary)
         add_harmonics(error);
       else
         add_polynomials(travel_of(problem, axis),
-                        !error.name.angular() && direction != error.name.body ? 2 : 1, error);
+                        !error.name.angular() && error.name.direction != error.name.body ? 2 : 1,
+                        error);
       if (rotary && std::ranges::find(polynomials, error.name) != polynomials.end()) {
         add_polynomials(axis_range(problem, axis.name), 1, error);
         for (double& share : error.shares) share *= 0.5;
@@ -77,12 +87,20 @@ std::vector<PlausibleError> plausible_errors(const Problem& problem,
   return out;
 }
 
-std::vector<RandomGroup> groups_of(const std::vector<PlausibleError>& errors) {
+std::vector<RandomGroup> groups_of(std::vector<PlausibleError>& errors) {
   std::vector<RandomGroup> out;
-  for (const PlausibleError& error : errors)
-    out.push_back(
-        {error.plausible,
-         Eigen::Map<const VectorXd>(error.shares.data(), static_cast<Index>(error.shares.size()))});
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const auto& [name, size, amounts, shares, group] = errors[i];
+    const Eigen::Map<const VectorXd> own(shares.data(), static_cast<Index>(shares.size()));
+    if (i > 0 && are_radial_pair(errors[i - 1].name, name)) {
+      VectorXd& of_both = out.back().shares;
+      of_both.conservativeResize(of_both.size() + own.size());
+      of_both.tail(own.size()) = own;
+    } else {
+      out.push_back({size, own});
+    }
+    errors[i].group = out.size() - 1;
+  }
   return out;
 }
 

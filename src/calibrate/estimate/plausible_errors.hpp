@@ -15,6 +15,7 @@ struct PlausibleError {
   double plausible = 0.0;  ///< mm or rad
   std::vector<UncertainAmount> amounts;
   std::vector<double> shares;  ///< of the mean square of the error, over that of the amount: Var/s²
+  std::size_t group = 0;       ///< of those that share a size
 };
 
 /// The assumed sizes of component errors before anything is measured: the medians of machining
@@ -43,8 +44,9 @@ std::vector<PlausibleError> plausible_errors(const Problem& problem,
                                              const std::vector<ErrorName>& polynomials = {},
                                              const PlausibleSizes& sizes = {});
 
-/// A group of random columns for each error.
-std::vector<RandomGroup> groups_of(const std::vector<PlausibleError>& errors);
+/// Groups of random columns that share a size: an error each, but the two directions across a
+/// rotary axis together. Its sizes are then the same in whichever directions X and Y are laid.
+std::vector<RandomGroup> groups_of(std::vector<PlausibleError>& errors);
 
 /// Columns of the readings per mm or rad of every amount, each of a component error.
 MatrixXd amount_columns(const Problem& problem, const Geometry& geometry,

@@ -153,7 +153,7 @@ class Together {
     return fit_.unknowns[fit_.solution.determined.kept[static_cast<std::size_t>(k)]];
   }
 
-  std::vector<RandomGroup> groups() const {
+  std::vector<RandomGroup> groups() {
     std::vector<RandomGroup> out{{1.0, VectorXd::Ones(given_.root.cols()), true}};
     const auto plausible = groups_of(plausible_);
     out.insert(out.end(), plausible.begin(), plausible.end());
@@ -255,7 +255,6 @@ class Together {
 
   void write_components(Calibration& out) const {
     Index at = effects_.fixed.size() + given_.root.cols();
-    std::size_t group = 1;
     for (const PlausibleError& error : plausible_) {
       CalibratedComponent one{to_string(error.name), {}, 0.0, false, false};
       double square = 0.0, unknown = 0.0;
@@ -267,7 +266,8 @@ class Together {
         ++at;
       }
       one.rms = {std::sqrt(square), std::sqrt(unknown), error.name.angular() ? "rad" : "mm", ""};
-      one.plausible = error.plausible * effects_.times[group++];
+      // The first group is what was given.
+      one.plausible = error.plausible * effects_.times[error.group + 1];
       one.beyond = one.rms.value - 2.0 * one.rms.u >
                    beyond * error.plausible * std::max(1.0, effects_.times_all);
       out.components.push_back(std::move(one));
