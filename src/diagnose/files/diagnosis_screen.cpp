@@ -31,7 +31,8 @@ std::string verdict_line(const Diagnosis& d) {
   const std::string known = axis_accuracy(d.extended);
   const std::string accuracy = known.empty() ? "" : ", " + known;
   if (d.verdict == DiagnosisVerdict::ideal)
-    return "IDEAL: " + ideal_words(d) + accuracy + "; " + rms;
+    return (d.extended.axis_known() ? "IDEAL: " : "NOT KNOWN: ") + ideal_words(d) + accuracy +
+           "; " + rms;
   std::string text = d.verdict == DiagnosisVerdict::effects ? "EFFECTS: " : "UNEXPLAINED: ";
   text += fmt::format("{} deviation{} from an ideal {}", found + unexplained,
                       found + unexplained == 1 ? "" : "s", to_string(d.baseline.surface));

@@ -19,7 +19,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr int dates_to_start = 8;
+constexpr int dates_to_start = 8;         // of a step, less one: every slip found with 12 was
 constexpr int harmonics_of_rounding = 8;  // the others have a fifteenth of its square
 
 LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double ball_mm,
@@ -122,7 +122,6 @@ Outliers exclude(const Problem& all) {
     Outliers own = find_outliers(all.point, basis, all.deviation_mm, all.mask, all.threads,
                                  step.shape.onset_s);
     basis.pop_back();
-
     const bool better = out.jumps != own.jumps ? out.jumps : own.list.size() < fewest;
     if (!better) continue;
     fewest = own.list.size();

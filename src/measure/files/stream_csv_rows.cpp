@@ -52,7 +52,8 @@ CsvRows::CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& d
       diagnostics_(diagnostics),
       row_(header.columns.size()),
       time_at_(header.columns.size()),
-      last_time_(-std::numeric_limits<double>::infinity()),
+      first_time_(std::numeric_limits<double>::infinity()),
+      last_time_(-first_time_),
       all_known_(true),
       drop_invalid_(drop_invalid) {
   if (header.sensors() > 1) stream.more_reading_mm.resize(header.sensors() - 1);
@@ -143,7 +144,7 @@ bool CsvRows::take_columns(std::span<const std::span<const double>> columns) {
 bool CsvRows::accept() {
   if (time_at_ < row_.size()) {
     if (row_[time_at_] < last_time_) return false;
-    last_time_ = row_[time_at_];
+    time_is(row_[time_at_]);
   }
   append();
   return true;
@@ -221,9 +222,10 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
         fine = no_values_alone = false;
         falls = mistakes.size();
         why = "t falls from " + exact_text(last_time_) + " to " + exact_text(row_[k]) +
-              ": sort the rows by time";
+              (row_[k] == first_time_ ? ": another recording begins here, so give it its own file"
+                                      : ": sort the rows by time");
       }
-      last_time_ = row_[k];
+      time_is(row_[k]);
     }
     if (!fine) mistakes.push_back({fields_[k], std::move(why)});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -51,6 +52,10 @@ class CsvRows {
   bool accept();             ///< appends row_ unless its time falls
   bool begins_pass() const;  ///< row_ has another number of the pass than the row before
   void append();
+  void time_is(double t) {
+    if (!std::isfinite(first_time_)) first_time_ = t;
+    last_time_ = t;
+  }
 
   const CsvHeader& header_;
   CsvDiagnostics& diagnostics_;
@@ -58,7 +63,7 @@ class CsvRows {
   std::vector<double> row_;
   std::vector<std::string_view> fields_;
   std::size_t time_at_;  ///< index of t, or the number of columns
-  double last_time_;
+  double first_time_, last_time_;
   bool all_known_, drop_invalid_;
   CsvInvalidRows invalid_;
 };
