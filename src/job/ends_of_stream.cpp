@@ -67,7 +67,10 @@ std::size_t far_in_last(const std::vector<bool>& far) {
 /// show there.
 bool is_other_diameter(const ProbeStream& stream, const Diagnosis& diagnosis, std::size_t begin,
                        std::size_t end, const std::vector<bool>& left_out) {
-  if (diagnosis.residual_after_mm.size() != stream.size()) return false;
+  // A cone or a face that moved along its axis lies off alike all round.
+  if (diagnosis.baseline.surface != SurfaceKind::cylinder ||
+      diagnosis.residual_after_mm.size() != stream.size())
+    return false;
   std::vector<double> c_rad, z_mm, off_mm;
   for (std::size_t i = begin; i < end; ++i) {
     if (!left_out[i]) continue;

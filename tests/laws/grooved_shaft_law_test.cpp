@@ -104,6 +104,22 @@ TEST(UndercutShaft, IsNotKnownIfItSlipsThere) {
   }
 }
 
+// A cone that is pushed 0.2 mm along its axis lies off alike all round, as an undercut does.
+TEST(UndercutShaft, ACutAtTheEndOfAConeMayBeAMove) {
+  Scenario scenario = probed_part(PartKind::cone);
+  scenario.noise.sigma_mm = 0.0005;
+  const ProbeStream probed = simulate(scenario);
+  const auto [least, most] = std::ranges::minmax(probed.position_mm);
+  const double from_mm = most - 0.08 * (most - least);
+  const ProbeStream cut =
+      cut_away(scenario, 0.02, [&](double, double z_mm) { return z_mm > from_mm; });
+  DiagnoseOptions options;
+  options.fit.surface = SurfaceKind::cone;
+  const Diagnosis diagnosis = diagnose(cut, options);
+  EXPECT_TRUE(why_axis_unknown(cut, diagnosis))
+      << diagnosis.findings.size() << " found, " << diagnosis.noise.masked.size() << " excluded";
+}
+
 TEST(SlottedShaft, HasTheAxisOfItsLands) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SCOPED_TRACE(seed);

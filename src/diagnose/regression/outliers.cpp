@@ -142,6 +142,7 @@ bool ends_in_place(const Masked& of, const LinearisationPoint& point) {
   for (std::size_t i = end; i-- > 0 && std::abs(point.c[i] - point.c[end - 1]) < two_pi; ++counted)
     used += of.mask.used[i] ? 1 : 0;
   if (2 * used >= counted && in_row <= longest) return true;
+  if (point.base.face || point.base.tapers) return false;  // off all round if it moves along Z
   std::vector<double> c_rad, z_mm, off_mm;
   for (std::size_t i = end - std::max(in_row, counted); i < end; ++i) {
     if (of.mask.used[i]) continue;
