@@ -49,7 +49,7 @@ struct TermContext {
 struct TermShape {
   double order = 2.0;              ///< of a harmonic; jaws of a chuck; κ of an asynchronous motion
   double lever_from_mm = 0.0;      ///< Z of the bearing, s of the jaws
-  double decay_length_mm = 100.0;  ///< L of exp(−|s − s_jaw|/L)
+  double decay_length_mm = 100.0;  ///< L of exp(−|s − s_jaw|/L), and of FormAtEnds
   int degree = 2;                  ///< highest Legendre degree of slide.z_straightness
   double period_mm = 1.0;          ///< wavelength, feed, pitch, period of the scale
   double frequency_hz = 50.0;
@@ -107,6 +107,10 @@ struct PeriodicInZ {
   double turns = 0.0;
 };
 
+/// exp(−d²/2L²) of the distance d from the lower and from the upper end of what was probed (Eq.
+/// 43a).
+struct FormAtEnds {};
+
 /// cos, sin (2π f t), in X (Eq. 44).
 struct PeriodicInTime {};
 
@@ -151,8 +155,8 @@ struct Response {
 };
 
 using EffectTerm =
-    std::variant<std::monostate, Harmonic, PolynomialInZ, PeriodicInZ, PeriodicInTime, GrowthInTime,
-                 PartStep, ArgumentShift, ProbeLine, Response>;
+    std::variant<std::monostate, Harmonic, PolynomialInZ, PeriodicInZ, FormAtEnds, PeriodicInTime,
+                 GrowthInTime, PartStep, ArgumentShift, ProbeLine, Response>;
 
 /// A parameter in which X_M is linear, near zero. Two that follow each other are the factors of cos
 /// and sin of one size: NAME_cos, NAME_sin. a cos(n θ − φ) has (a cos φ, a sin φ), a cos(k z + φ)

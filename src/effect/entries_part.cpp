@@ -186,6 +186,8 @@ std::vector<Effect> part_roundness() {
 }
 
 std::vector<Effect> part_profile() {
+  const ShapeValues end_reaches{
+      &TermShape::decay_length_mm, {8.0, 16.0, 32.0, 64.0}, ShapeValues::In::per_length};
   return {
       {.id = "part.barrel",
        .title = "barrel or saddle: the generator is curved",
@@ -206,6 +208,28 @@ std::vector<Effect> part_profile() {
        .source = "ISO 12180-1 (cylindricity: generatrix)",
        .needs = {.length = true, .stream = StreamKind::lateral},
        .search = {.forms = {{{0}}, {.degrees = 3}}}},
+      {.id = "part.end_form",
+       .title = "another diameter at an end: a bell mouth, chamfer or relief",
+       .slot = Slot::part,
+       .frame = EffectFrame::part,
+       .term = FormAtEnds{},
+       .formula =
+           "rho = a exp(-(s - s_low)^2/2L^2) + b exp(-(s - s_high)^2/2L^2), s_low and s_high "
+           "the ends of the probed length",
+       .parameters = {{"low", "mm", 2e-3, 0.05, "a", {}, 0.0, -0.5, 0.5},
+                      {"high", "mm", 2e-3, 0.05, "b", {}, 0.0, -0.5, 0.5},
+                      {"reach", "mm", 0.2, 20, "L", "decay_length_mm"}},
+       .signature = "no undulation around, at an end of the probed length alone",
+       .consequence = "no harm to the axis; probe clear of the end",
+       .confounders = {"thermal.drift"},
+       .separations = {{"RZ", "a form at the start reads the same again, a drift does not"},
+                       {"OZ", "the form moves with the part"}},
+       .axis_bias = AxisBias{0.01, "mm/mm", "a tenth of the length: 0.01 of the amplitude"},
+       .source = "ISO 12180-1 (cylindricity: generatrix); ISO 13715 (edges of undefined shape)",
+       .needs = {.length = true, .stream = StreamKind::lateral},
+       .typical = {{&TermShape::decay_length_mm, {16.0}, ShapeValues::In::per_length}},
+       .search = {.forms = {{{0}, end_reaches, 4}, {{1}, end_reaches, 4}}},
+       .refinement = Refinement{&TermShape::decay_length_mm, By::factor, 2.0, 0.05, 50.0}},
       {.id = "part.taper",
        .title = "taper of a cylinder",
        .slot = Slot::part,

@@ -47,11 +47,13 @@ inline void fill(const std::monostate&, const TermContext&, const TermShape&, Co
 Parameters parameters(const Harmonic& term, const TermShape& shape);
 Parameters parameters(const PolynomialInZ& term, const TermShape& shape);
 Parameters parameters(const PeriodicInZ& term, const TermShape& shape);
+Parameters parameters(const FormAtEnds& term, const TermShape& shape);
 Parameters parameters(const PeriodicInTime& term, const TermShape& shape);
 Parameters parameters(const GrowthInTime& term, const TermShape& shape);
 void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape, Columns out);
+void fill(const FormAtEnds& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const PeriodicInTime& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const GrowthInTime& term, const TermContext& at, const TermShape& shape, Columns out);
 
@@ -59,6 +61,7 @@ void fill(const GrowthInTime& term, const TermContext& at, const TermShape& shap
 std::size_t count(const Harmonic& term, const TermShape& shape);
 std::size_t count(const PolynomialInZ& term, const TermShape& shape);
 inline std::size_t count(const PeriodicInZ&, const TermShape&) { return 2; }
+inline std::size_t count(const FormAtEnds&, const TermShape&) { return 2; }
 inline std::size_t count(const PeriodicInTime&, const TermShape&) { return 2; }
 inline std::size_t count(const GrowthInTime&, const TermShape&) { return 2; }
 

@@ -195,6 +195,22 @@ void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape
   contact::scale_by_dx_d(term.port, at, out);
 }
 
+Parameters parameters(const FormAtEnds&, const TermShape&) {
+  return {{{"low", "mm"}, {"high", "mm"}}, {"decay_length_mm"}};
+}
+
+void fill(const FormAtEnds&, const TermContext& at, const TermShape& shape, Columns out) {
+  Chunk u;
+  contact::normalised(TermPort::normal, at, u.data());
+  const double lengths = at.z_half_mm / shape.decay_length_mm;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double low = (u[i] + 1.0) * lengths, high = (u[i] - 1.0) * lengths;
+    out[0][i] = std::exp(-0.5 * low * low);
+    out[1][i] = std::exp(-0.5 * high * high);
+  }
+  contact::scale_by_dx_d(TermPort::normal, at, out);
+}
+
 Parameters parameters(const PeriodicInTime&, const TermShape&) {
   return amplitude_pair("mm", {"frequency_hz"});
 }

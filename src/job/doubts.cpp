@@ -164,7 +164,7 @@ std::optional<Reason> moved_in_pass_of(const ProbeStream& stream, const Diagnosi
 }
 
 std::optional<Reason> slip_unsure_of(const ProbeStream&, const Diagnosis& diagnosis) {
-  if (!is_likely_slip(diagnosis) || is_sure_slip(diagnosis)) return {};
+  if (!is_likely_slip(diagnosis) || leaves_axis_known(diagnosis)) return {};
   return Reason{ReasonCode::slip_unsure};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/seat_distance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "job/references.hpp"
@@ -41,17 +42,30 @@ AxisOffset worst_of(const AxisEstimate& apart, const FitResult& seat) {
   return low.size_mm() > high.size_mm() ? low : high;
 }
 
+constexpr double least_slip_mm = 0.01;  // the smallest that is typical (part.slip)
+
+/// No reading of one lies in time between two of the other; streams without times may not either.
+bool one_after_the_other(const ProbeStream& a, const ProbeStream& b) {
+  if (a.time_s.empty() || b.time_s.empty()) return true;
+  return a.time_s.back() <= b.time_s.front() || b.time_s.back() <= a.time_s.front();
+}
+
 SeatDistance distance_of(const PlannedJob& result, std::size_t i, std::size_t j) {
   const FitResult &a = fit_used(result, i), &b = fit_used(result, j);
   const AxisEstimate apart = difference(axis_of_reference(result, i), axis_of_reference(result, j));
   const auto middle = [](const FitResult& fit) {
     return 0.5 * (fit.position_min_mm + fit.position_max_mm);
   };
-  SeatDistance out{i, j, {}, {}, 0.0, 0.0};
+  SeatDistance out{.first = i, .second = j, .middle = {}, .worst = {}};
   out.middle = {offset_at(apart, middle(a)), offset_at(apart, middle(b))};
   out.worst = {worst_of(apart, a), worst_of(apart, b)};
   out.tilt_rad = std::atan(std::hypot(apart.axis.slope_x, apart.axis.slope_y));
   out.u_tilt_rad = apart.u_slope();
+  out.slip_looks_alike =
+      one_after_the_other(result.streams[i], result.streams[j]) &&
+      std::ranges::all_of(out.middle, [&](const AxisOffset& at) {
+        return at.size_mm() > std::max(least_slip_mm, a.coverage_factor * at.u_mm);
+      });
   return out;
 }
 

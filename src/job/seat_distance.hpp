@@ -23,6 +23,8 @@ struct SeatDistance {
   std::array<AxisOffset, 2> middle;         ///< of the first seat's length, of the second's
   std::array<AxisOffset, 2> worst;          ///< the larger of the ends of each seat
   double tilt_rad = 0.0, u_tilt_rad = 0.0;  ///< angle of the axes
+  /// They were probed one after the other, and a part that slipped in between would show the same.
+  bool slip_looks_alike = false;
 
   /// ISO 1101, a diameter: 2 × the worst offset of a seat's axis from the other's.
   double coaxiality_mm(std::size_t seat) const { return 2.0 * worst[seat].size_mm(); }

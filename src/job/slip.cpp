@@ -66,6 +66,37 @@ Reason slipped(std::size_t i, const Finding& finding, double k, ReasonCode code)
 constexpr Threshold may_have_moved{"probability", nonconformity_risk, "1",
                                    "the risk that a verdict takes; U holds what is less probable"};
 constexpr Threshold of_slip[] = {may_have_moved};
+constexpr double negligible = 0.01;  // probability of a rival cause: a fifth of that risk
+
+/// At an instant, with sizes that what was read after it shows, nothing unexplained, and no other
+/// cause that may be a slip.
+bool is_one_step(const Diagnosis& diagnosis, const Finding& slip) {
+  if (slip.term.shape.duration_s > 0.0 || !diagnosis.unexplained.empty()) return false;
+  if (std::ranges::any_of(slip.parameters,
+                          [](const FitParameter& p) { return !p.estimate.determined(); }))
+    return false;
+  return std::ranges::none_of(diagnosis.findings, [&](const Finding& finding) {
+    return &finding != &slip && std::ranges::any_of(finding.members(), [&](const std::string& id) {
+      return is_slip(diagnosis, id);
+    });
+  });
+}
+
+/// Whether the axis is the same within U for the named and the rival causes: the average is
+/// over all of them.
+bool axis_is_of_all(const Diagnosis& diagnosis, const Finding& finding) {
+  const FitResult& fit = diagnosis.extended;
+  if (!fit.axis_known()) return false;
+  const double U_mm = fit.coverage_factor * std::max(fit.axis.u_at(fit.position_min_mm),
+                                                     fit.axis.u_at(fit.position_max_mm));
+  return std::ranges::all_of(finding.rivals, [&](const Rival& rival) {
+    const auto is_near = [&](const AxisShare& share) {
+      return share.instead_of == finding.effect() && share.effect == rival.effect &&
+             share.axis_shift.value <= U_mm;
+    };
+    return rival.probability < negligible || std::ranges::any_of(diagnosis.shares, is_near);
+  });
+}
 
 /// That it is a part that moved, if another cause is named.
 double moved_instead(const Diagnosis& diagnosis, const Finding& finding) {
@@ -91,12 +122,14 @@ Reasons find_unsure_slip(const CheckInput& in) {
   for (std::size_t i = 0; i < job.diagnoses.size(); ++i) {
     if (!job.diagnoses[i] || is_sure_slip(*job.diagnoses[i]) || job.diagnoses[i]->late_s) continue;
     const Diagnosis& diagnosis = *job.diagnoses[i];
-    if (const Finding* slip = diagnosis.slip()) {
+    const Finding* slip = diagnosis.slip();
+    if (slip && !leaves_axis_known(diagnosis)) {
       perhaps = slipped(i, *slip, diagnosis.baseline.coverage_factor, ReasonCode::part_slipped);
       break;
     }
     for (const Finding& finding : diagnosis.findings)
-      if (!perhaps) perhaps = possible(diagnosis, i, finding);
+      if (!perhaps && !axis_is_of_all(diagnosis, finding))
+        perhaps = possible(diagnosis, i, finding);
   }
   if (perhaps) perhaps->remedies = {{ReasonCode::clamp_again}};
   return perhaps ? Reasons{std::move(*perhaps)} : Reasons{};
@@ -115,17 +148,12 @@ bool is_likely_slip(const Diagnosis& diagnosis) {
 
 bool is_sure_slip(const Diagnosis& diagnosis) {
   const Finding* slip = diagnosis.slip();
-  if (!slip || slip->term.shape.duration_s > 0.0 || !slip->rivals.empty() ||
-      !diagnosis.unexplained.empty())
-    return false;
-  if (std::ranges::any_of(slip->parameters,
-                          [](const FitParameter& p) { return !p.estimate.determined(); }))
-    return false;
-  return std::ranges::none_of(diagnosis.findings, [&](const Finding& finding) {
-    return &finding != slip && std::ranges::any_of(finding.members(), [&](const std::string& id) {
-      return is_slip(diagnosis, id);
-    });
-  });
+  return slip && slip->rivals.empty() && is_one_step(diagnosis, *slip);
+}
+
+bool leaves_axis_known(const Diagnosis& diagnosis) {
+  const Finding* slip = diagnosis.slip();
+  return slip && is_one_step(diagnosis, *slip) && axis_is_of_all(diagnosis, *slip);
 }
 
 std::optional<std::size_t> slipped_since(const IdentifiedJob& job, std::size_t reference) {

@@ -21,6 +21,9 @@ Reasons moved_part(const IdentifiedJob& job);
 /// reading tells.
 bool is_sure_slip(const Diagnosis& diagnosis);
 
+/// The same with rival causes, if the axis is within U the same for all of them.
+bool leaves_axis_known(const Diagnosis& diagnosis);
+
 /// The reference during which the part slipped after another one may have been probed: where that
 /// one was is then not known. None: no part slipped, or the readings of this one say that they are
 /// later, in the times of the same file.

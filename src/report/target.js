@@ -51,8 +51,10 @@ function seatAxesTable({seat_axes: axes, references, verdict: {k}}) {
 /** How far the axes of each two seats are from each other. */
 function seatsApartTable({seats_apart: pairs, verdict: {k}}) {
   const size = ({value, u}) => plusMinus(value, u, k, 'u unknown');
-  const rows = pairs.flatMap(({at: both, angle}) => both.map((one, i) => [`${one.reference} from ${both[1 - i].reference}`, size(one.in_its_middle.offset),
-    size(one.coaxiality_about_the_other), slopeWords({tilt_deg: angle.value, u_tilt_deg: angle.u}, k)]));
+  const slip = (a, b) => `Or the part slipped between ${a} and ${b}, which would look the same: probe ${a} again, and compare`;
+  const rows = pairs.flatMap(({at: both, angle, slip_looks_alike: alike}) => both.map((one, i) => ({
+    cells: [`${one.reference} from ${both[1 - i].reference}`, size(one.in_its_middle.offset), size(one.coaxiality_about_the_other),
+      slopeWords({tilt_deg: angle.value, u_tilt_deg: angle.u}, k)], note: alike && i === 1 ? slip(both[0].reference, one.reference) : null, lost: false})));
   return rows.length ? table(`How far the axes of the seats are from each other, ± U (k = ${tick(k)}); coaxiality (a diameter) over the probed length with the other axis as datum`,
     ['Axis', 'In the middle of its length', 'Coaxiality', 'Angle'], rows, 1, true) : null;
 }

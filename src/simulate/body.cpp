@@ -68,6 +68,7 @@ double Body::gap(const Vec3& in_part, const Chucking& setup) const {
     point.theta_rad = point.chuck_theta_rad + setup.reindex_rad;
     point.s_mm = face_ ? std::hypot(p.x, p.y) : p.z;
     point.u = span_.u(point.s_mm);
+    point.u_half_mm = 0.5 * std::abs(span_.end_mm - span_.start_mm);
     point.clamp = setup.clamp_force_ratio;
     point.outward = outward_;
     for (const auto& term : chain_.form) form += term(point);

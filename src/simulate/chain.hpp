@@ -38,6 +38,7 @@ struct SurfacePoint {
   double chuck_theta_rad = 0.0;  ///< the same against the chuck
   double s_mm = 0.0;             ///< along the axis; face: distance from the axis
   double u = 0.0;                ///< s on [−1, 1]
+  double u_half_mm = 0.0;        ///< along s, what u is 1 at
   double clamp = 1.0;            ///< clamping force against the first set-up
   double outward = 1.0;          ///< direction out of the material: +1, in a bore −1
 };

@@ -39,6 +39,15 @@ constexpr EffectEntry part_table[] = {
      in<form>([](const SurfacePoint& p, double a, double b) {
        return a * legendre(2, p.u) + b * legendre(3, p.u);
      })},
+    {"part.end_form",
+     "low exp(-(d/reach)^2/2) of the distance d from where u is -1, and high of that from where it "
+     "is 1",
+     {{"low_mm", 0.0}, {"high_mm", 0.0}, {"reach_mm", {}}},
+     in<form>([](const SurfacePoint& p, double low, double high, double reach) {
+       const double from_low = (1.0 + p.u) * p.u_half_mm, from_high = (1.0 - p.u) * p.u_half_mm;
+       return low * std::exp(-0.5 * std::pow(from_low / reach, 2)) +
+              high * std::exp(-0.5 * std::pow(from_high / reach, 2));
+     })},
     {"part.taper", "a u", {{"amplitude_mm", {}}}, in<form>([](const SurfacePoint& p, double a) {
        return a * p.u;
      })},

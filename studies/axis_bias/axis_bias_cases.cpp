@@ -114,6 +114,8 @@ std::vector<AxisBiasCase> part_cases(const Where& at) {
       mm("part.roundness", "ovality growing with u", {.order = 2}, {2, 3}),
       mm("part.barrel", "P2", {}, {0}),
       mm("part.barrel", "P3", {}, {1}),
+      mm("part.end_form", "at the lower end, a tenth of the length",
+         {.decay_length_mm = length / 10}, {0}),
       mm("part.waviness", "7.3 waves", {.period_mm = length / 7.3}),
       mm("part.feed_marks", "0.173 mm/rev", {.period_mm = 0.173}),
       mm("part.bow", "over the probed length"),

@@ -124,6 +124,16 @@ std::string slipped_at(double slip_z_mm) {
   return out;
 }
 
+// A slip between two seats is an offset of one from the other, which no reading tells apart.
+TEST_F(SeatsCommand, ASlipBetweenTwoSeatsLooksLikeAnOffset) {
+  file("between.csv", slipped_at(shoulder_mm));
+  const CommandStreams done = command("run between.csv -o out");
+  ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
+  const json apart = result("out/result.json").at("seats_apart").at(0);
+  EXPECT_EQ(apart.at("slip_looks_alike"), true);
+  EXPECT_TRUE(contains(done.out, "the part slipped between A and B")) << done.out;
+}
+
 // Where the first seat was is not known after a slip during the second: no axis, no distance. A
 // seat that the times put after the slip is where it was probed.
 TEST_F(SeatsCommand, ASeatFromBeforeASlipIsNotKnown) {
@@ -147,6 +157,7 @@ TEST_F(SeatsCommand, ASeatFromBeforeASlipIsNotKnown) {
   };
   EXPECT_EQ(ellipses("late/report.html"), ellipses("early/report.html") - 2);
   const json apart = result("early/result.json").at("seats_apart").at(0);
+  EXPECT_EQ(apart.at("slip_looks_alike"), false);
   for (const json& at : apart.at("at"))
     expect_holds(at.at("in_its_middle").at("offset"), 0.0, "offset");
 }

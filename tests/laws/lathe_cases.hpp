@@ -45,6 +45,20 @@ inline std::vector<LatheCase> lateral_lathe_cases() {
        },
        {},
        {1.0, 0.4}},
+      {"part.end_form",
+       1e-3,
+       [](double a) {
+         return Parameters{{"low_mm", a}, {"reach_mm", 6}};
+       },
+       {.decay_length_mm = 6},
+       {1.0, 0.0}},
+      {"part.end_form",
+       1e-3,
+       [](double a) {
+         return Parameters{{"high_mm", a}, {"reach_mm", 6}};
+       },
+       {.decay_length_mm = 6},
+       {0.0, 1.0}},
       {"part.taper",
        1e-3,
        [](double a) {

@@ -316,7 +316,7 @@ TEST(SimulateEffects, ZeroEffectsChangeNothingAndOthersSomething) {
              name.starts_with("height") || name.starts_with("rate") ||
              name.starts_with("quadratic") || name.starts_with("sagitta") || name == "angle_rad" ||
              name == "delay_s" || name == "time_constant_s" || name == "step_mm" ||
-             name == "play_mm";
+             name == "play_mm" || name == "low_mm" || name == "high_mm";
     };
     const bool limits = kind.id == "probe.saturation";
     for (const LatheParameter& parameter : kind.parameters) {

@@ -76,6 +76,29 @@ TEST(Slip, InTheClassOfAnotherCauseForbidsFromTheRiskOfAVerdictOn) {
   EXPECT_TRUE(is_likely_slip(*rivals(0.3, 0.3).diagnoses.front()));
 }
 
+// What a slip and its rival cause make of the axis is in the average: if both leave it where it is
+// within U, nothing forbids the table.
+TEST(Slip, WithARivalThatLeavesTheAxisWithinUIsNoObjection) {
+  Finding step = slipped({example::parameter("turn", 0.006, 0.001, "rad")});
+  step.rivals = {{"probe.latency", 0.4, 1.1, 0.86, false}};
+  step.probability = 0.14;
+  JobResult result = found({step});
+  Diagnosis& diagnosis = *result.diagnoses.front();
+  ASSERT_TRUE(diagnosis.extended.axis_known());
+  const double U_mm =
+      2.0 * std::max(diagnosis.extended.axis.u_at(diagnosis.extended.position_min_mm),
+                     diagnosis.extended.axis.u_at(diagnosis.extended.position_max_mm));
+  ASSERT_GT(U_mm, 0.0);
+  const auto moves_axis_by = [&](double shift_mm) {
+    diagnosis.shares = {{"probe.latency", "part.slip", 0.86, {shift_mm, 1e-4, "mm", ""}}};
+    return objection(result);
+  };
+  EXPECT_EQ(moves_axis_by(0.5 * U_mm), "");
+  EXPECT_NE(moves_axis_by(1.5 * U_mm), "");
+  EXPECT_TRUE(is_likely_slip(diagnosis));
+  EXPECT_FALSE(is_sure_slip(diagnosis));
+}
+
 TEST(Slip, OneThatLastsIsNotSure) {
   Finding slow = slipped(
       {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});

@@ -24,6 +24,7 @@ void add_rest_of_steps(const Problem& problem, const std::vector<Hypothesis>& te
       if (problem.resolution.degrees < form.degrees) continue;
       Hypothesis rest = step;
       rest.free.clear();
+      rest.tests = 1.0;  // its date is known
       for (const std::size_t j : form.free)
         if (std::ranges::find(step.free, j) == step.free.end()) rest.free.push_back(j);
       if (!rest.free.empty()) list.push_back(std::move(rest));

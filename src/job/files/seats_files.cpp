@@ -74,6 +74,7 @@ Json seats_apart_array(const JobResult& result) {
     return {{"first", result.job.references[d.first].name},
             {"second", result.job.references[d.second].name},
             {"angle", to_json(Estimate{d.tilt_rad, d.u_tilt_rad, "rad", ""})},
+            {"slip_looks_alike", d.slip_looks_alike},
             {"at", list_of_first(2, seat)}};
   });
 }
@@ -133,6 +134,9 @@ std::string seats_apart_screen(const JobResult& result) {
     text += "       coaxiality " + coaxiality(1) + " of " + b + " with " + a + " as datum, " +
             coaxiality(0) + " of " + a + " with " + b +
             " as datum (axes over the probed lengths)\n";
+    if (d.slip_looks_alike)
+      text += "       or the part slipped between " + a + " and " + b +
+              ", which would look the same: probe " + a + " again, and compare\n";
   }
   return text;
 }
