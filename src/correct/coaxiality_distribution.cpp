@@ -6,6 +6,8 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/random/sobol.hpp>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include "math/linear_algebra.hpp"
@@ -21,6 +23,21 @@ constexpr Eigen::Index dimensions = 5;  // of a reference: four of the axis, one
 
 double normal_quantile(double probability) {
   return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability);
+}
+
+/// Unit normal variates of all draws, of the Sobol points of so many references. A job asks for
+/// several distributions, and the variates of all of them are the same: made once.
+const std::vector<double>& normals_of(std::size_t references) {
+  static std::mutex mutex;
+  static std::map<std::size_t, std::vector<double>> made;
+  const std::lock_guard lock(mutex);
+  std::vector<double>& normals = made[references];
+  if (!normals.empty()) return normals;
+  boost::random::sobol points(references * dimensions);
+  const double scale = 1.0 / (static_cast<double>(points.max()) + 1.0);
+  normals.resize(draws * references * dimensions);
+  for (double& n : normals) n = normal_quantile((static_cast<double>(points()) + 0.5) * scale);
+  return normals;
 }
 
 /// √(ν/χ²) of Student's t, from a normal variate (Wilson and Hilferty 1931).
@@ -76,14 +93,14 @@ CoaxialityDistribution::CoaxialityDistribution(std::span<const Reference> refere
   for (const Reference& reference : references)
     seen.push_back(seen_from(target, reference, z_start_mm, z_end_mm));
   if (std::ranges::any_of(seen, [](const Seen& s) { return !s.factor.allFinite(); })) return;
-  boost::random::sobol points(seen.size() * dimensions);
-  const double scale = 1.0 / (static_cast<double>(points.max()) + 1.0);
+  const double* next = normals_of(seen.size()).data();
   sorted_mm_.reserve(draws);
   for (std::size_t draw = 0; draw < draws; ++draw) {
     double worst_mm = 0.0;
     for (const Seen& s : seen) {
-      Eigen::Matrix<double, dimensions, 1> normal;
-      for (double& n : normal) n = normal_quantile((static_cast<double>(points()) + 0.5) * scale);
+      using Normals = Eigen::Matrix<double, dimensions, 1>;
+      const Normals normal = Eigen::Map<const Normals>(next);
+      next += dimensions;
       const Vector4 off =
           s.offset_mm + s.factor * normal.head<4>() * student_factor(normal[4], s.freedom);
       worst_mm = std::max({worst_mm, off.head<2>().norm(), off.tail<2>().norm()});
