@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <vector>
 
 #include "trueaxis/error.hpp"
 
@@ -36,15 +37,25 @@ double central_quantile(double sd, std::span<const NormalMixture> summands, doub
   double mean = 0.0;
   for (const NormalMixture& mixture : summands)
     for (const NormalPart& part : mixture) mean += part.probability * part.mean;
-  const auto within = [&](double q) {
-    const double step = std::numbers::pi / (steps * q);
-    double sum = 0.5 * q;
+  // Steps of one size serve every smaller q too: the function at them is asked for once.
+  double step = 0.0;
+  std::vector<double> at_steps;
+  const auto prepare = [&](double q) {
+    step = std::numbers::pi / (steps * q);
+    at_steps.clear();
     for (double t = step; t * sd < ends_at; t += step)
-      sum += std::sin(q * t) / t * characteristic(t, sd, summands, mean);
+      at_steps.push_back(characteristic(t, sd, summands, mean) / t);
+  };
+  const auto within = [&](double q) {
+    double sum = 0.5 * q, t = step;
+    for (const double value : at_steps) {
+      sum += std::sin(q * t) * value;
+      t += step;
+    }
     return 2.0 / std::numbers::pi * step * sum;
   };
   double low = sd, high = 1.5 * sd;
-  while (within(high) < level) low = high, high *= 1.5;
+  for (prepare(high); within(high) < level; prepare(high)) low = high, high *= 1.5;
   while (high / low > 1.0 + exact) {
     const double middle = std::sqrt(low * high);
     (within(middle) < level ? low : high) = middle;
