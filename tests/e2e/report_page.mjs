@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens reports in headless Chromium as a reader would, wide, on a phone, in the dark and on paper, and lists what is wrong:
-//   node report_page.mjs REPORT.html [--folded] [FOLDER_FOR_SCREENSHOTS]
+//   node report_page.mjs REPORT.html [--folded | --wide] [FOLDER_FOR_SCREENSHOTS]
 //   node report_page.mjs --each     reads such words, one report a line as a JSON array; "--" ends what is said of each
-// --folded opens it wide and prints its banner, no more.
+// --folded opens it wide and prints its banner, no more; --wide leaves out the phone.
 // Pictures of whole pages are half of the work, so that they are made when they are asked for.
 import {existsSync, mkdirSync} from 'node:fs';
 import {join, resolve} from 'node:path';
@@ -215,12 +215,12 @@ async function look(browser, {report, folded, folder}, {name, width, height}) {
 
 /** What is wrong with a report, by the words of a command line. */
 async function judge(browser, words) {
-  const [report, folder] = words.filter((word) => word !== '--folded');
+  const [report, folder] = words.filter((word) => !word.startsWith('--'));
   const asked = {report, folder, folded: words.includes('--folded')};
   if (!existsSync(report)) return [`${report} is not there`];
   if (folder) mkdirSync(folder, {recursive: true});
   const {page, problems} = await look(browser, asked, {name: 'wide', width: 1400, height: 1000});
-  if (!asked.folded) problems.push(...(await look(browser, asked, {name: 'phone', width: 390, height: 844})).problems);
+  if (!asked.folded && !words.includes('--wide')) problems.push(...(await look(browser, asked, {name: 'phone', width: 390, height: 844})).problems);
   if (!asked.folded && !problems.length) problems.push(...await lookDark(page, folder));
   await Promise.all(browser.contexts().map((context) => context.close()));
   return problems;
@@ -228,7 +228,7 @@ async function judge(browser, words) {
 
 const words = process.argv.slice(2);
 if (!words.length) {
-  console.error('usage: node report_page.mjs REPORT.html [--folded] [FOLDER_FOR_SCREENSHOTS]');
+  console.error('usage: node report_page.mjs REPORT.html [--folded | --wide] [FOLDER_FOR_SCREENSHOTS]');
   process.exit(2);
 }
 const browser = await launch();

@@ -112,7 +112,7 @@ TEST_F(ReportPage, TheScriptFindsWhatIsWrong) {
       replaced(render_report(example::cone_job(100)), "</main>",
                "</main><script>console.error('broken')</script><img src='file:///nowhere.png'>"
                "<div style='width:2000px'>wide</div>");
-  const Opinion opinion = open_page(page, "broken");
+  const Opinion opinion = open_page(page, "broken", "--wide");
   EXPECT_FALSE(opinion.sound);
   for (const char* finding : {"console error: broken", "request: file:///nowhere.png", "px wide"}) {
     EXPECT_NE(opinion.log.find(finding), std::string::npos) << finding << "\n" << opinion.log;
@@ -124,7 +124,7 @@ TEST_F(ReportPage, TheScriptFindsAnEmptyChart) {
   const std::string page = replaced(render_report(example::cone_job(100)), "\"turns\":[",
                                     "\"turns\":[{\"c_deg\":[],\"wanted_um\":[],\"command_um\":[],"
                                     "\"revolution\":0,\"position_mm\":0}],\"was\":[");
-  const Opinion opinion = open_page(page, "empty_chart");
+  const Opinion opinion = open_page(page, "empty_chart", "--wide");
   EXPECT_NE(opinion.log.find("has no data"), std::string::npos) << opinion.log;
   EXPECT_EQ(opinion.log.find("page error"), std::string::npos) << opinion.log;
   EXPECT_FALSE(opinion.sound);
@@ -133,7 +133,7 @@ TEST_F(ReportPage, TheScriptFindsAnEmptyChart) {
 TEST_F(ReportPage, TheScriptFindsACodeThatNobodyExplains) {
   const std::string page =
       replaced(render_report(example::diagnosed_job(200)), "To tell apart: ", "To tell apart RC: ");
-  const Opinion opinion = open_page(page, "code");
+  const Opinion opinion = open_page(page, "code", "--wide");
   EXPECT_NE(opinion.log.find("the page shows the code \"RC\""), std::string::npos) << opinion.log;
   EXPECT_FALSE(opinion.sound);
 }
@@ -141,7 +141,7 @@ TEST_F(ReportPage, TheScriptFindsACodeThatNobodyExplains) {
 TEST_F(ReportPage, TheScriptFindsWhatCannotBeReadInTheDark) {
   const std::string page =
       replaced(render_report(example::cone_job(100)), "ink: '#e3e8ed'", "ink: '#2a3440'");
-  const Opinion opinion = open_page(page, "too_dark");
+  const Opinion opinion = open_page(page, "too_dark", "--wide");
   EXPECT_NE(opinion.log.find("hard to read on"), std::string::npos) << opinion.log;
   EXPECT_FALSE(opinion.sound);
 }
@@ -149,7 +149,7 @@ TEST_F(ReportPage, TheScriptFindsWhatCannotBeReadInTheDark) {
 TEST_F(ReportPage, TheScriptFindsTextThatIsCut) {
   const std::string page = replaced(render_report(example::cone_job(100)),
                                     "padding: [0, 0, 0, -24]", "padding: [0, 0, 0, -60]");
-  const Opinion opinion = open_page(page, "text_cut");
+  const Opinion opinion = open_page(page, "text_cut", "--wide");
   EXPECT_NE(opinion.log.find("text is cut at the edge"), std::string::npos) << opinion.log;
   EXPECT_FALSE(opinion.sound);
 }

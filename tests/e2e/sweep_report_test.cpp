@@ -100,7 +100,8 @@ TEST_F(SweepReport, DrawnNumbersHaveAnEfficiency) {
   sweep.drawn = {{"noise.sigma_um", "noise.sigma_mm", study::Drawn::Kind::uniform, 0.004, 0.006}};
   const auto charts = [&](std::size_t repeats) {
     sweep.repeats = repeats;
-    const Opinion opinion = open_page(page_of({sweep, {}}), "drawn" + std::to_string(repeats));
+    const Opinion opinion = open_page(page_of({sweep, {}}), "drawn" + std::to_string(repeats),
+                                      repeats < 100 ? "--wide" : "");
     EXPECT_TRUE(opinion.sound) << opinion.log;
     const std::size_t at = opinion.log.find("wide: ");
     return at == std::string::npos ? -1 : std::stoi(opinion.log.substr(at + 6));

@@ -80,7 +80,8 @@ class Browser {
   std::ifstream said_;
 };
 
-/// Opened with all its looks, or with the option `--folded`: wide and folded, for its banner.
+/// Opened with all its looks, or with the option `--folded`: wide and folded, for its banner; or
+/// with `--wide`: with all but the phone.
 inline Opinion open_page(const std::string& html, const std::string& name,
                          const std::string& option = "") {
   const std::filesystem::path folder = std::filesystem::path(places::scratch()) / "report" / name;
