@@ -60,6 +60,7 @@ struct TermShape {
   double reference_x_mm = 0.0;     ///< X_ref of the sensor
   double range_mm = 1.0;           ///< that v of probe.nonlinearity is 1 at
   double play_mm = 0.0;            ///< of probe.hysteresis: the play to linearise at
+  double ball_radius_mm = 0.0;     ///< what no wave of the surface is read sharper than; 0: unknown
 
   bool operator==(const TermShape&) const = default;
 };

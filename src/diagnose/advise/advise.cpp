@@ -133,6 +133,7 @@ class Predictor {
     base.axes = plan.clampings.back().axis + 1;
     LinearisationPoint out = linearise_at(plan.stream, plan.clampings, base, problem_.point.bore);
     out.as_read = problem_.point.as_read;
+    out.ball_radius_mm = problem_.point.ball_radius_mm;
     return out;
   }
 

@@ -62,6 +62,7 @@ struct LinearisationFacts {
   std::vector<Clamping> before;  ///< of a part that slipped: where it was, until when
   double height_mm = 0.0;        ///< of the probe; 0 for a face
   bool as_read = false;          ///< TermContext
+  double ball_radius_mm = 0.0;   ///< 0: unknown
 
   double end_mm() const { return std::abs(z_mid_mm) + z_half_mm; }  ///< outer end of a face
 };

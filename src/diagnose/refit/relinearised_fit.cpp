@@ -186,6 +186,7 @@ LinearisationPoint RelinearisedFit::point_at(const ProbeStream& stream, const Pl
                    place.before, place.height_mm, first.passes);
   out.play_side = play_side_;
   out.as_read = std::ranges::none_of(terms_, plays);
+  out.ball_radius_mm = first.ball_radius_mm;
   return out;
 }
 

@@ -29,6 +29,15 @@ Range range_of_size(const EffectParameter* p, const TermShape& shape) {
   return {high * std::sqrt(ratio), spread_of_size(-std::log(ratio))};
 }
 
+/// Amplitude of a wave of the surface as a ball reads it that lies on two crests: half of
+/// r − √(r² − λ²/4) (Eq. 43b); 0: it is no such wave, or any size can be.
+double most_of_wave(const Hypothesis& h) {
+  const auto* wave = std::get_if<PeriodicInZ>(&h.effect->term);
+  const double r = h.shape.ball_radius_mm, half_mm = 0.5 * std::abs(h.shape.period_mm);
+  if (!wave || wave->port != TermPort::normal || !(r > half_mm)) return 0.0;
+  return 0.5 * (r - std::sqrt(r * r - half_mm * half_mm));
+}
+
 }  // namespace
 
 bool bends_reading(const EffectTerm& term) {
@@ -66,6 +75,10 @@ SizePrior size_prior(const Hypothesis& h) {
   if (bends_reading(h.effect->term) && h.shape.range_mm > 0.0) {
     out.most = out.most.cwiseMin(most_of_range * h.shape.range_mm);
     out.least = out.least.cwiseMax(-most_of_range * h.shape.range_mm);
+  }
+  if (const double most_mm = most_of_wave(h); most_mm > 0.0) {
+    out.most = out.most.cwiseMin(most_mm);
+    out.least = out.least.cwiseMax(-most_mm);
   }
   out.spread *= h.effect->size_spread;
   if (h.effect->stated && count == 1 && out.median(0) > 0.0) {

@@ -137,6 +137,7 @@ TermShape typical_shape(const Effect& effect, const LinearisationPoint& point) {
   TermShape shape;
   shape.reference_x_mm = point.reference_x_mm;
   shape.range_mm = point.range_x_mm;
+  shape.ball_radius_mm = point.ball_radius_mm;
   for (const ShapeValues& v : effect.typical)
     shape.*v.parameter = value_in(v.in, v.values.front(), point);
   return shape;

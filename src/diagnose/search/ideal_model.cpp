@@ -28,6 +28,7 @@ LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double
   LinearisationPoint out =
       linearise_at(stream, clampings, base_of(stream, fit, clampings), fit.bore, threads);
   out.as_read = true;
+  out.ball_radius_mm = ball_mm;
   return out;
 }
 
