@@ -303,14 +303,15 @@ std::vector<SeatBreak> breaks_of(const SeatProfile& profile, const Stretches& fo
 }
 
 /// If two seats meet without a jump, the readings about the corner follow both: half a turn of
-/// them is of neither, and no reading is of two seats.
+/// them is of neither, and no reading is of two seats. A section is of the stretch that it is in.
 void part_at(const SeatBreak& here, const SeatProfile& profile, const TurnRadius& end,
              const TurnRadius& begin, Seat& before, Seat& after) {
   if (here.kind != SeatBreak::Kind::slope && before.z.to_mm < after.z.from_mm) return;
   const auto rounded = [](double z_mm) { return 1e-3 * std::round(1e3 * z_mm); };
-  const double to_mm = here.z_mm - (profile.sections ? one_um_mm : 0.5 * end.spacing_mm);
+  const double middle_mm = 0.5 * (end.z_mm + begin.z_mm);
+  const double to_mm = profile.sections ? middle_mm - one_um_mm : here.z_mm - 0.5 * end.spacing_mm;
   const double from_mm =
-      here.z_mm + (profile.sections ? one_um_mm : 0.5 * begin.spacing_mm);
+      profile.sections ? middle_mm + one_um_mm : here.z_mm + 0.5 * begin.spacing_mm;
   before.z.to_mm = std::min(before.z.to_mm, rounded(to_mm));
   after.z.from_mm = std::max(after.z.from_mm, rounded(from_mm));
 }

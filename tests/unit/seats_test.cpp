@@ -310,6 +310,23 @@ TEST(Seats, EachSeatHasAFeedOfItsOwn) {
       }
 }
 
+// The line of the cone meets the cylinder just before the cone's last section, which is of the
+// cone.
+TEST(Seats, TwoSectionsEachKeepBoth) {
+  const Probing sections{.length_mm = 12.8129, .sections = 2};
+  for (const double taper : {0.27, -0.27}) {
+    ProbeStream stream;
+    then(stream, sections, 20, 0, 20);
+    then(stream, sections, 22, taper, 55);
+    then(stream, sections, 22 + taper * 12.7, 0, 90);
+    const Seats found = find_seats(stream);
+    ASSERT_EQ(found.seats.size(), 3u);
+    for (const Seat& seat : found.seats)
+      EXPECT_EQ(seat.readings, 2u * static_cast<unsigned>(sections.per_turn));
+    EXPECT_TRUE(found.left_out.empty());
+  }
+}
+
 // The spindle does not turn at the first seat, which has no radius then.
 TEST(Seats, WhatIsOfNoSeatIsCounted) {
   ProbeStream stream;
