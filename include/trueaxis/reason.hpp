@@ -125,6 +125,7 @@ enum class ReasonCode {
   radius_steps,
   taper_changes,
   not_read,
+  of_no_seat,
   // Remedies.
   clamp_again,
   probe_all_again,

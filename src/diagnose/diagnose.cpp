@@ -22,6 +22,7 @@
 #include "diagnose/refit/extended_fit.hpp"
 #include "diagnose/refit/searched.hpp"
 #include "fit/plausible.hpp"
+#include "fit/probe_height.hpp"
 #include "measure/angles_alike.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
@@ -281,6 +282,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& asked) {
       add_evidence(ideal, *refit, search.model, average, threads, out);
     }
   });
+  for (FitResult* one : {&out.named, &out.extended})
+    add_square_of_height(asked.fit.influences, *one);
   expects(may_be_sharper || !is_sharper(out.extended, out.baseline),
           "if no cause was found, U of the final axis is at least that of the ideal fit");
   const LinearisationPoint& point = refit->problem().point;

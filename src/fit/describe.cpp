@@ -11,6 +11,7 @@
 #include "base/counted.hpp"
 #include "fit/apex_interval.hpp"
 #include "fit/plausible.hpp"
+#include "fit/probe_height.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "measure/centre_of_ball.hpp"
@@ -368,6 +369,7 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
   result.axis = result.set_ups.back().axis;
   result.shape = result.set_ups.back().shape;
   if (determination.free_directions.cols() == 0) report_derived(last, result);
+  add_square_of_height(options.influences, result);
   for (FitParameter& derived : result.derived) {
     if (!std::isfinite(derived.estimate.u)) derived.estimate.why_not = no_redundancy;
   }

@@ -11,6 +11,7 @@
 #include "form/axis_line.hpp"
 #include "form/face.hpp"
 #include "form/notes.hpp"
+#include "form/point_noise.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/form.hpp"
 
@@ -140,7 +141,10 @@ FormResult heights(const std::vector<Eigen::Vector3d>& points, bool plane,
     at.push_back(plane ? std::array{one.x(), one.y()} : std::array{one.z(), 0.0});
     height.push_back(plane ? one.z() : one.x());
   }
-  assess_heights(at, plane, height, ShownNoise::around, {}, {}, result);
+  assess_heights(
+      at, plane, height,
+      [&](std::span<const double> off) { return noise_of_points_mm(at, plane, off); }, {}, {},
+      false, result);
   return result;
 }
 

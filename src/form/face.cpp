@@ -10,13 +10,14 @@
 #include <numeric>
 #include <ranges>
 
+#include "base/counted.hpp"
 #include "base/threads.hpp"
 #include "form/bounded.hpp"
-#include "form/point_noise.hpp"
 #include "form/section_model.hpp"
 #include "form/stream_checks.hpp"
 #include "form/uncertainty.hpp"
 #include "math/statistics.hpp"
+#include "measure/lone_outliers.hpp"
 
 namespace trueaxis::form {
 namespace {
@@ -112,7 +113,23 @@ namespace {
 constexpr double one_ring_mm = 0.01;
 constexpr std::size_t least_of_a_ring = 8;
 
-/// Readings at one X, in order of X.
+/// Whole turns of a spiral, which are rings but for the feed.
+std::vector<std::vector<std::size_t>> turns_of(const ProbeStream& stream) {
+  std::vector<std::vector<std::size_t>> turns;
+  const std::vector<double>& c = stream.c_rad;
+  for (std::size_t begin = 0, i = 1; i < c.size(); ++i) {
+    const bool turns_back = i > begin + 1 && (c[i] - c[i - 1]) * (c[begin + 1] - c[begin]) < 0.0;
+    if (!turns_back && std::abs(c[i] - c[begin]) < two_pi) continue;
+    if (!turns_back && i - begin >= least_of_a_ring) {
+      turns.emplace_back(i - begin);
+      std::iota(turns.back().begin(), turns.back().end(), begin);
+    }
+    begin = i;
+  }
+  return turns;
+}
+
+/// Readings at one X, in order of X; of a spiral its turns.
 std::vector<std::vector<std::size_t>> rings_of(const ProbeStream& stream) {
   std::vector<std::size_t> order(stream.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -127,7 +144,7 @@ std::vector<std::vector<std::size_t>> rings_of(const ProbeStream& stream) {
     rings.back().push_back(i);
   }
   std::erase_if(rings, [](const auto& ring) { return ring.size() < least_of_a_ring; });
-  return rings;
+  return rings.empty() ? turns_of(stream) : rings;
 }
 
 std::vector<NamedValue> axial_run_out(const std::vector<std::vector<std::size_t>>& rings,
@@ -152,11 +169,45 @@ double noise_in_order(std::span<const double> off_mm) {
   return trace.size() > 2 ? shown_noise_mm(trace) : 0.0;
 }
 
+/// Noise that readings at one C show, a turn apart: what is slow from reading to reading, such as a
+/// vibration, hides from neighbours, and only form returns with C.
+double noise_a_turn_apart(const ProbeStream& stream, std::span<const double> off_mm) {
+  std::vector<double> apart;
+  const std::vector<double>& c = stream.c_rad;
+  for (std::size_t i = 0, j = 1; i < c.size(); ++i) {
+    j = std::max(j, i + 1);
+    while (j < c.size() && std::abs(c[j] - c[i]) < two_pi) ++j;
+    if (j == c.size()) break;
+    const double share = (two_pi - std::abs(c[j - 1] - c[i])) / std::abs(c[j] - c[j - 1]);
+    if (!(share > 0.0 && share <= 1.0)) continue;
+    const double before = 1.0 - share;
+    apart.push_back((off_mm[i] - before * off_mm[j - 1] - share * off_mm[j]) /
+                    std::sqrt(1.0 + before * before + share * share));
+  }
+  return apart.empty() ? 0.0 : mad_sigma(apart);
+}
+
+/// Heights without chips, which are on the surface of best fit instead.
+std::vector<double> without_chips(std::span<const double> height_mm, std::span<const double> off_mm,
+                                  FormResult& result) {
+  const std::vector<bool> chips = lone_outliers(off_mm);
+  std::vector<double> without(height_mm.begin(), height_mm.end());
+  for (std::size_t i = 0; i < without.size(); ++i)
+    if (chips[i]) without[i] -= off_mm[i];
+  if (const auto count = static_cast<std::size_t>(std::ranges::count(chips, true)); count > 0)
+    result.notes.push_back(fmt::format(
+        "{} far off, such as on chips: U is so large that the values may be without {}. "
+        "Clean the face and probe again",
+        counted(count, "single reading lies", "single readings lie"), count == 1 ? "it" : "them"));
+  return without;
+}
+
 }  // namespace
 
 void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
-                    std::span<const double> height_mm, ShownNoise shown, const AssessHeights& more,
-                    std::span<const TakenOff> taken_off, FormResult& result) {
+                    std::span<const double> height_mm, const NoiseOf& shown,
+                    const AssessHeights& more, std::span<const TakenOff> taken_off, bool ordered,
+                    FormResult& result) {
   const HeightModel model(at_mm, plane,
                           plane ? HeightModel::Names{"flatness", "FLT", "PL"}
                                 : HeightModel::Names{"straightness", "STR", "LI"});
@@ -167,14 +218,19 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
     return values;
   };
   const std::vector<double> off = model.off_mm(height_mm);
-  const double shown_mm =
-      shown == ShownNoise::in_order ? noise_in_order(off) : noise_of_points_mm(at_mm, plane, off);
-  const double noise_mm = std::max(shown_mm, result.options.noise_mm.value_or(0.0));
+  const double noise_mm = std::max(shown(off), result.options.noise_mm.value_or(0.0));
   const auto values = assess(height_mm);
-  auto spread = spreads_of_heights(height_mm, off, noise_mm, result.options, assess);
+  // A chip makes a range that noise hardly changes.
+  const std::vector<double> clean_mm = ordered ? without_chips(height_mm, off, result)
+                                               : std::vector(height_mm.begin(), height_mm.end());
+  const auto cleaned = assess(clean_mm);
+  auto spread =
+      spreads_of_heights(clean_mm, model.off_mm(clean_mm), noise_mm, result.options, assess);
   add_taken_off(taken_off, values, spread, [&](const TakenOff& one, std::size_t k) {
     return assess(added(height_mm, one, k));
   });
+  for (std::size_t v = 0; v < values.size(); ++v)
+    spread[v].u += std::abs(values[v].value - cleaned[v].value) / result.options.coverage_factor;
   const Bounded bounded(values, spread, result.options.coverage_factor);
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (result.groups.empty() || result.groups.back().name != values[v].group)
@@ -206,9 +262,12 @@ void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const T
   uncertain.push_back({columns_mm, independent});
   const auto rings = rings_of(stream);
   assess_heights(
-      at, true, height_mm, ShownNoise::in_order,
+      at, true, height_mm,
+      [&](std::span<const double> off) {
+        return std::max(noise_in_order(off), noise_a_turn_apart(stream, off));
+      },
       [&](std::span<const double> heights) { return axial_run_out(rings, heights); }, uncertain,
-      result);
+      true, result);
 }
 
 }  // namespace trueaxis::form

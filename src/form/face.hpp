@@ -55,13 +55,15 @@ struct Lean {
 void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const TakenOff> taken_off,
                  FormResult& result);
 
-/// What shows the noise of heights: the readings before and after, or the points around, whatever
-/// their order.
-enum class ShownNoise { in_order, around };
+/// The noise of heights that their residuals show, mm.
+using NoiseOf = std::function<double(std::span<const double> off_mm)>;
 
 /// Flatness or straightness of heights, with U, as a group of the result.
+/// @param ordered by time: a chip, far off between neighbours that are not, is in the values and
+/// may not be of the part, so the lower ends are without it
 void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
-                    std::span<const double> height_mm, ShownNoise shown, const AssessHeights& more,
-                    std::span<const TakenOff> taken_off, FormResult& result);
+                    std::span<const double> height_mm, const NoiseOf& shown,
+                    const AssessHeights& more, std::span<const TakenOff> taken_off, bool ordered,
+                    FormResult& result);
 
 }  // namespace trueaxis::form

@@ -17,11 +17,15 @@ constexpr double kept_by = 0.75;              // of the length of a trace
 constexpr double turn_rounding = 1.0 + 1e-6;  // angles of a text file
 constexpr double standard_upr[] = {500.0, 150.0, 50.0, 15.0};
 
-std::string more_points(double upr, double step) {
+std::string more_points(double upr, std::size_t count, double step) {
   const double carried = std::floor(turn_rounding * two_pi / (least_points_per_cycle * step));
+  const double needed = std::ceil(least_points_per_cycle * upr);
   std::string text = fmt::format(
-      "{:g} UPR needs {:.0f} readings per revolution, 7 per wave, and there are {:.0f}: ", upr,
-      std::ceil(least_points_per_cycle * upr), two_pi / step);
+      "{:g} UPR needs {:.0f} readings per revolution, 7 per wave, and {} {:.0f}: ", upr, needed,
+      static_cast<double>(count) < needed
+          ? "there are"
+          : fmt::format("{} at uneven angles are in places as sparse as", count),
+      two_pi / step);
   if (carried < 2.0)
     return text +
            "too few for any filter; '--filter none' gives the range of the unfiltered readings";
@@ -71,10 +75,12 @@ std::string sampling_trouble(const Trace& trace, const FormOptions& options) {
   if (options.filter == ProfileFilter::none) return "";
   const double allowed = turn_rounding * two_pi / (options.high_upr * least_points_per_cycle);
   if (usual_step(trace) <= allowed) return "";
-  const std::vector<Gap> gaps = gaps_of(trace, allowed);
-  if (2 * gaps.size() >= trace.size()) return more_points(options.high_upr, usual_step(trace));
+  const std::vector<Gap> gaps =
+      gaps_of(trace, turn_rounding * longest_step(two_pi / options.high_upr));
   double in_gaps = 0.0;
   for (const Gap& gap : gaps) in_gaps += gap.length;
+  if (in_gaps <= (1.0 - kept_by) * two_pi || 2 * gaps.size() >= trace.size())
+    return more_points(options.high_upr, trace.size(), usual_step(trace));
   return fmt::format(
       "{:.0f}° of the turn without a reading: a filter cannot bridge more than a quarter of it; "
       "'--filter none' gives the range of the unfiltered readings",

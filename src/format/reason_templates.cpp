@@ -241,6 +241,7 @@ std::string_view template_of(ReasonCode code) {
       {radius_steps, "the radius steps by {step::+.4g} mm at Z {z::.4g} mm, a shoulder"},
       {taper_changes, "the taper changes by {change:deg:.2g}° at Z {z::.4g} mm"},
       {not_read, "there are no readings about Z {z::.4g} mm"},
+      {of_no_seat, "{readings::.0f} readings at Z {from::.4g} to {to::.4g} mm are of no seat"},
       {clamp_again, "clamp it again and probe again"},
       {probe_all_again, "clamp the part again and probe all references again"},
       {probe_again, "probe again"},

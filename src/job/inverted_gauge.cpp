@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -14,6 +15,7 @@ constexpr double matches = 3.0;       // u: of 1000 that are right 3 are farther
 constexpr double seen = 5.0;          // u: what is nearer to nothing may be noise
 constexpr double of_amplitude = 0.1;  // of the wave: a ball that is not stated
 constexpr double of_phase = 0.05;     // of the wave, across it: 1.4° of an axis
+constexpr double own_motions = 0.05;  // of two undulations that match at random
 
 /// What the part off its axis leaves if the sign of the gauge is wrong: the axis comes out
 /// opposite, where the circle makes the same wave of two undulations with the other sign. In one
@@ -29,6 +31,13 @@ SecondWave wave_of_inverted(const FitResult& fit, double c_rad, double z_mm) {
   const double amplitude = -(x * x + y * y) / (2.0 * radius);
   const double angle = 2.0 * (c_rad - std::atan2(y, x));
   return {amplitude * std::cos(angle), amplitude * std::sin(angle)};
+}
+
+/// The share of motions of two undulations, in any direction, that match to this width along the
+/// wave and across it: at most the area at the greatest density, 1/(π e), that normal motions of
+/// any size have at the wave.
+double matching_at_random(double along, double across) {
+  return 4.0 * along * across / (std::numbers::pi * std::numbers::e);
 }
 
 /// Whether the ideal fit leaves that wave, and nothing across it. After a slip it leaves much else.
@@ -50,8 +59,9 @@ bool leaves_wave(const ProbeStream& stream, const Diagnosis& diagnosis) {
   if (!(along2 > 0.0 && across2 > 0.0)) return false;
   const double share = along / along2, beside = across / across2;
   const double u = std::sqrt(left2 / count / std::min(along2, across2));
-  return share > seen * u && std::abs(share - 1.0) <= matches * u + of_amplitude &&
-         std::abs(beside) <= matches * u + of_phase;
+  const double to_along = matches * u + of_amplitude, to_across = matches * u + of_phase;
+  return share > seen * u && matching_at_random(to_along, to_across) <= own_motions &&
+         std::abs(share - 1.0) <= to_along && std::abs(beside) <= to_across;
 }
 
 std::optional<Reason> inverted_of(const ProbeStream& stream, const Diagnosis& diagnosis) {
@@ -71,7 +81,9 @@ std::optional<Reason> inverted_of(const ProbeStream& stream, const Diagnosis& di
 
 constexpr Threshold of_wave[] = {
     {"two_undulations", matches, "of its u", "of 1000 that match 3 are farther"},
-    {"seen", seen, "of its u", "what is nearer to nothing may be noise"}};
+    {"seen", seen, "of its u", "what is nearer to nothing may be noise"},
+    {"own_motions", own_motions, "of motions of two undulations",
+     "of 20 that are the part's own, of the likeliest size, one matches"}};
 
 }  // namespace
 

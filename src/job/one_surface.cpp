@@ -25,6 +25,12 @@ Reason reason_of(const SeatBreak& one) {
 Reason reason_of(const Seats& seats, ReasonCode code, ReasonCode of_seat) {
   Reason reason{code, {}, {{"seats", static_cast<double>(seats.seats.size())}}};
   for (const SeatBreak& one : seats.breaks) reason.parts.push_back(reason_of(one));
+  for (const Seat& one : seats.left_out)
+    reason.parts.push_back({ReasonCode::of_no_seat,
+                            {},
+                            {{"readings", static_cast<double>(one.readings)},
+                             {"from", one.z.from_mm, "mm"},
+                             {"to", one.z.to_mm, "mm"}}});
   for (const Seat& seat : seats.seats)
     reason.remedies.push_back(
         {of_seat, {}, {{"from", seat.z.from_mm, "mm"}, {"to", seat.z.to_mm, "mm"}}});

@@ -11,6 +11,7 @@ namespace trueaxis {
 /// The radius about the axis of one turn or section of the readings, whatever its eccentricity.
 struct TurnRadius {
   double z_mm = 0.0, radius_mm = 0.0;
+  double spacing_mm = 0.0;            ///< to its neighbours: the feed, the median of sections
   double u_mm = 0.0;                  ///< standard uncertainty from the scatter within it
   std::vector<std::size_t> readings;  ///< those in it
 };
@@ -18,7 +19,6 @@ struct TurnRadius {
 /// A stream as a profile along Z.
 struct SeatProfile {
   std::vector<TurnRadius> turns;  ///< along Z
-  double spacing_mm = 0.0;        ///< of neighbouring turns: the feed, the median of sections
   double noise_mm = 0.0;          ///< standard deviation of a turn's radius
   bool sections = false;          ///< at standing Z, not along a helix
 };

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/seats.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <numeric>
 
-#include "base/hundredths.hpp"
-#include "measure/kept_readings.hpp"
+#include "math/statistics.hpp"
 #include "measure/seat_profile.hpp"
-#include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -83,8 +79,9 @@ class Line {
 bool gap_after(const SeatProfile& profile, std::size_t i) {
   const auto& t = profile.turns;
   const double length_mm = t.back().z_mm - t.front().z_mm;
+  const double spacing_mm = std::max(t[i].spacing_mm, t[i + 1].spacing_mm);
   return t[i + 1].z_mm - t[i].z_mm >
-         std::max(gap_turns * profile.spacing_mm, gap_share * length_mm) + profile.spacing_mm;
+         std::max(gap_turns * spacing_mm, gap_share * length_mm) + spacing_mm;
 }
 
 /// The cheapest lines (dynamic programming). Sums of squares come from running sums.
@@ -242,8 +239,8 @@ double end_of(const ProbeStream& stream, const SeatProfile& profile, const Stret
   const Continued seat(stream, profile, first, first + used - 1);
   const double sign = up ? 1.0 : -1.0;
   const double inside = sign * profile.turns[first + used / 2].z_mm;
-  const double reach =
-      sign * profile.turns[up ? stretch.last : stretch.first].z_mm + 2.0 * profile.spacing_mm;
+  const TurnRadius& last_turn = profile.turns[up ? stretch.last : stretch.first];
+  const double reach = sign * last_turn.z_mm + 2.0 * last_turn.spacing_mm;
   std::vector<std::size_t> beyond;
   for (std::size_t i = 0; i < stream.size(); ++i)
     if (sign * stream.position_mm[i] >= inside && sign * stream.position_mm[i] <= reach)
@@ -270,7 +267,7 @@ double end_of(const ProbeStream& stream, const SeatProfile& profile, const Stret
     next = nowhere_mm;
   else
     last = level, next = leaves;
-  next = std::min(next, last + beyond_share * profile.spacing_mm);
+  next = std::min(next, last + beyond_share * last_turn.spacing_mm);
   return sign * shortest_number(last, next);
 }
 
@@ -306,12 +303,41 @@ std::vector<SeatBreak> breaks_of(const SeatProfile& profile, const Stretches& fo
 }
 
 /// If two seats meet without a jump, the readings about the corner follow both: half a turn of
-/// them is of neither, and no reading is of two seats.
-void part_at(const SeatBreak& here, double margin_mm, Seat& before, Seat& after) {
+/// them is of neither, and no reading is of two seats. A section is of the stretch that it is in.
+void part_at(const SeatBreak& here, const SeatProfile& profile, const TurnRadius& end,
+             const TurnRadius& begin, Seat& before, Seat& after) {
   if (here.kind != SeatBreak::Kind::slope && before.z.to_mm < after.z.from_mm) return;
   const auto rounded = [](double z_mm) { return 1e-3 * std::round(1e3 * z_mm); };
-  before.z.to_mm = std::min(before.z.to_mm, rounded(here.z_mm - margin_mm));
-  after.z.from_mm = std::max(after.z.from_mm, rounded(here.z_mm + margin_mm));
+  const double middle_mm = 0.5 * (end.z_mm + begin.z_mm);
+  const double to_mm = profile.sections ? middle_mm - one_um_mm : here.z_mm - 0.5 * end.spacing_mm;
+  const double from_mm =
+      profile.sections ? middle_mm + one_um_mm : here.z_mm + 0.5 * begin.spacing_mm;
+  before.z.to_mm = std::min(before.z.to_mm, rounded(to_mm));
+  after.z.from_mm = std::max(after.z.from_mm, rounded(from_mm));
+}
+
+/// The readings of each seat, and the stretches between and next to them that are more than a
+/// transition: the turn across the edge, and half a turn on both sides.
+void count_readings(const ProbeStream& stream, const SeatProfile& profile, Seats& out) {
+  std::vector<double> of_turns;
+  for (const TurnRadius& turn : profile.turns)
+    of_turns.push_back(static_cast<double>(turn.readings.size()));
+  const double transition = profile.sections ? 0.0 : 2.0 * median(std::move(of_turns));
+  std::vector<Seat> none(out.seats.size() + 1);  // before each seat, and after the last
+  for (const double z : stream.position_mm) {
+    const auto next =
+        std::ranges::find_if(out.seats, [&](const Seat& s) { return z <= s.z.to_mm; });
+    if (next != out.seats.end() && next->z.holds(z)) {
+      ++next->readings;
+      continue;
+    }
+    Seat& in = none[static_cast<std::size_t>(next - out.seats.begin())];
+    in.z = in.readings == 0 ? ZRange{z, z}
+                            : ZRange{std::min(in.z.from_mm, z), std::max(in.z.to_mm, z)};
+    ++in.readings;
+  }
+  for (const Seat& one : none)
+    if (static_cast<double>(one.readings) > transition) out.left_out.push_back(one);
 }
 
 bool may_hold_seats(const ProbeStream& stream) {
@@ -343,43 +369,11 @@ Seats find_seats(const ProbeStream& stream) {
   }
   if (out.seats.empty() || out.seats.size() > most_seats) return {};
   out.breaks = breaks_of(profile, found, of_seat);
-  const double margin_mm = profile.sections ? one_um_mm : 0.5 * profile.spacing_mm;
   for (std::size_t i = 0; i + 1 < out.seats.size(); ++i)
-    part_at(out.breaks[of_seat.front() + i], margin_mm, out.seats[i], out.seats[i + 1]);
-  for (Seat& seat : out.seats)
-    for (const double z : stream.position_mm) seat.readings += seat.z.holds(z) ? 1 : 0;
-  return out;
-}
-
-ProbeStream within(const ProbeStream& stream, const ZRange& range) {
-  if (stream.kind == StreamKind::face)
-    throw InputError(stream.source, "is of a face, which has no range of Z: leave it out");
-  std::vector<bool> kept(stream.size());
-  std::size_t inside = 0, first = 0;
-  for (std::size_t i = 0; i < stream.size(); ++i) {
-    kept[i] = stream.has_position() && range.holds(stream.position_mm[i]);
-    if (kept[i] && inside++ == 0) first = i;
-  }
-  const auto end = [](double z_mm) { return fmt::format("{:.10g}", z_mm); };
-  const std::string text = !std::isfinite(range.from_mm) ? "up to " + end(range.to_mm) + " mm"
-                           : !std::isfinite(range.to_mm)
-                               ? "from " + end(range.from_mm) + " mm"
-                               : end(range.from_mm) + " to " + end(range.to_mm) + " mm";
-  if (inside == 0) {
-    std::string has = "the stream has no Z";
-    if (stream.has_position() && stream.size() > 0) {
-      const auto [low, high] = std::ranges::minmax(stream.position_mm);
-      has = fmt::format("they reach from Z {:.6g} to {:.6g} mm", low, high);
-    }
-    throw InputError(stream.source, "has no reading at Z " + text + ": " + has);
-  }
-  ProbeStream out = stream;
-  if (inside == stream.size()) return out;
-  keep_readings(out, kept);
-  out.read_as.push_back(
-      fmt::format("Z {}: the other {} of {} readings are excluded; row 1 of the results is row {} "
-                  "of the stream",
-                  text, stream.size() - inside, stream.size(), first + 1));
+    part_at(out.breaks[of_seat.front() + i], profile,
+            profile.turns[found.stretches[of_seat[i]].last],
+            profile.turns[found.stretches[of_seat[i + 1]].first], out.seats[i], out.seats[i + 1]);
+  count_readings(stream, profile, out);
   return out;
 }
 

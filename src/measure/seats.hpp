@@ -41,6 +41,7 @@ struct SeatBreak {
 struct Seats {
   std::vector<Seat> seats;
   std::vector<SeatBreak> breaks;  ///< all of them, those at an end of the stream too
+  std::vector<Seat> left_out;     ///< more than a transition, and of no seat
 
   /// Whether one cone or cylinder cannot be all of it: a break that is more than a gap.
   bool broken() const;

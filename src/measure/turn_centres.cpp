@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <limits>
 
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
+#include "measure/lone_outliers.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 
@@ -114,7 +116,10 @@ TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> valu
   const double turns = std::max({1.0, std::ceil(least_readings / per_turn),
                                  std::ceil(way / two_pi / static_cast<double>(most_centres))});
   const StraightAxis axis(stream, of == CentresOf::readings ? value_mm : std::span<const double>{});
-  const std::vector<double> left_mm = axis.left(stream, value_mm);
+  std::vector<double> left_mm = axis.left(stream, value_mm);
+  const std::vector<bool> chips = lone_outliers(left_mm);
+  for (std::size_t i = 0; i < count; ++i)
+    if (chips[i]) left_mm[i] = std::numeric_limits<double>::quiet_NaN();
   double squares = 0.0, freedom = 0.0;
   std::vector<bool> ends(count, false);  // a turn before a reading: another pass begins
   for (const Pass& pass : find_passes(stream)) ends[pass.begin] = true;

@@ -29,8 +29,9 @@ struct TurnCentres {
 /// Readings lie about an axis that runs along Z within a turn; what a fit leaves of them does not.
 enum class CentresOf { readings, residuals };
 
-/// The centres of all turns of `value_mm`, one a reading. Values that are not finite do not count.
-/// Lobes move none of them, and count in u. No turn holds readings of two passes.
+/// The centres of all turns of `value_mm`, one a reading. Values that are not finite and chips,
+/// single values far off, do not count. Lobes move none of them, and count in u. No turn holds
+/// readings of two passes.
 TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm,
                          CentresOf of = CentresOf::readings);
 

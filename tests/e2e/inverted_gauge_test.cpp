@@ -77,6 +77,19 @@ TEST_F(InvertedGauge, AnOvalPartIsNotTakenForIt) {
   }
 }
 
+// 0.08 mm off, the wave is 0.2 µm, and noise of 1.5 µm leaves it a u of 0.3 of itself: an oval of
+// 0.35 µm whose phase is anywhere within 40° of it would match. It says nothing of the gauge.
+TEST_F(InvertedGauge, AWaveThatIsHardlySeenIsNotTakenForIt) {
+  probe("cylinder", 0.08,
+        "[[effect]]\nid = \"part.roundness\"\norder = 2\namplitude_um = 0.4\nphase_deg = 122\n");
+  std::string part = read_text(folder_ / "part.toml");
+  part.replace(part.find("sigma_um = 0.5"), 14, "sigma_um = 1.5");
+  file("part.toml", part);
+  ASSERT_EQ(command("simulate part.toml -o part.csv --force").exit_code, 0);
+  const CommandStreams alone = command("run part.csv -o alone --surface cylinder");
+  EXPECT_FALSE(contains(alone.out, "opposite direction")) << alone.out;
+}
+
 // Whatever the diagnosis takes the wave for: 0.3 mm off, two undulations of 2.25 µm were a sensor
 // that bends, and the table that was a GO doubled the error.
 TEST_F(InvertedGauge, IsRefusedWhateverTheWaveIsCalled) {

@@ -11,6 +11,7 @@
 #include "fit/associate.hpp"
 #include "fit/joint_model.hpp"
 #include "fit/place_set_ups.hpp"
+#include "fit/probe_height.hpp"
 #include "fit/uncertainty.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/fit.hpp"
@@ -60,10 +61,32 @@ std::vector<double> contributions(const ProbeStream& stream, const Influence& in
   options.influences = {influence, {Kind::probe_delay, 1.0}};  // the other is not of a fit
   const FitResult found = fit(stream, options);
   EXPECT_EQ(found.status, FitStatus::converged) << found.message;
-  EXPECT_EQ(found.budget.size(), 2U);
-  EXPECT_EQ(found.budget.back().source, info_of(influence.kind).name);
-  EXPECT_EQ(found.budget.back().type, 'B');
-  return found.budget.back().u;
+  // A height has a line of its square next.
+  EXPECT_EQ(found.budget.size(), influence.kind == Kind::probe_height ? 3U : 2U);
+  EXPECT_EQ(found.budget[1].source, info_of(influence.kind).name);
+  EXPECT_EQ(found.budget[1].type, 'B');
+  return found.budget[1].u;
+}
+
+// A probe that is h off reads √(R² − h²) of a circle about the spindle. The u of a height of 0 is
+// h here, so the radius is off by 1/√3 of its u, to the next order h²/4R².
+TEST(FitBudget, AHeightMakesTheRadiusSmaller) {
+  constexpr double radius_mm = 8.0, height_mm = 0.2;
+  ProbeStream stream;
+  for (int i = 0; i < 400; ++i) {
+    stream.c_rad.push_back(two_pi * i / 37.3);
+    stream.position_mm.push_back(0.05 * i);
+    stream.reading_mm.push_back(std::sqrt(radius_mm * radius_mm - height_mm * height_mm));
+  }
+  FitOptions options;
+  options.surface = SurfaceKind::cylinder;
+  EXPECT_TRUE(holds_on_centre_height(fit(stream, options)));
+  options.influences = {{Kind::probe_height, height_mm}};
+  const FitResult found = fit(stream, options);
+  EXPECT_FALSE(holds_on_centre_height(found));
+  const Estimate& radius = found.parameter("radius");
+  const double off = (radius_mm - radius.value) / radius.u;
+  EXPECT_NEAR(off, 1.0 / std::sqrt(3.0), 2.0 * std::pow(height_mm / radius_mm, 2));
 }
 
 // Two clampings that lean otherwise and share radius and taper: there and back, to rounding.

@@ -2,6 +2,7 @@
 // Profile filters against their transfer functions, which are written here in other words.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -149,6 +150,23 @@ TEST(FormFilter, SlotsOfMoreThanAQuarterOfTheTurnAreNamed) {
   EXPECT_NE(trouble_with(20.0).find("° of the turn without a reading"), std::string::npos)
       << trouble_with(20.0);
   EXPECT_NE(sampling_trouble(turn_of(100), {}).find("and there are 100"), std::string::npos);
+}
+
+// Three turns of 37.21 readings each: 111 angles, as many as 15 UPR need, 2.0° to 7.6° apart. Half
+// a wave of 15 UPR is 12°, so none of the steps is a gap. They do support what the message says.
+TEST(FormFilter, UnevenAnglesAreNoGap) {
+  Trace trace = turn_of(111);
+  for (int i = 0; i < 111; ++i)
+    trace.at[static_cast<std::size_t>(i)] = std::fmod(i * two_pi / 37.21, two_pi);
+  std::ranges::sort(trace.at);
+  FormOptions options;
+  options.high_upr = 15.0;
+  const std::string trouble = sampling_trouble(trace, options);
+  ASSERT_EQ(trouble.find("without a reading"), std::string::npos) << trouble;
+  const std::size_t at = trouble.find("they support up to ");
+  ASSERT_NE(at, std::string::npos) << trouble;
+  options.high_upr = std::stod(trouble.substr(at + 19));
+  EXPECT_EQ(sampling_trouble(trace, options), "");
 }
 
 }  // namespace

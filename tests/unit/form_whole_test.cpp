@@ -271,5 +271,60 @@ TEST(FormWhole, AFaceIsAboutTheAxisOfItsDatum) {
   EXPECT_THROW(assess_form(datum, quick(), &face), InputError);
 }
 
+// A spiral on a face that leans by 1e-4, and a vibration of 1 µm, 3.37 waves per revolution. It is
+// slow from reading to reading, and elsewhere a turn later. The range of the readings has twice its
+// amplitude, of which nothing is in the face: the lower end must be below the run-out.
+TEST(FormWhole, AVibrationIsNotRunOut) {
+  constexpr double lean = 1e-4, from_mm = 15.0, to_mm = 28.0, wave_mm = 1e-3;
+  constexpr int readings = 530, each = 20;
+  int above = 0;
+  for (int phase = 0; phase < each; ++phase) {
+    boost::random::mt19937_64 engine(50 + phase);
+    boost::random::normal_distribution<double> noise(0.0, 2e-4);
+    ProbeStream face;
+    face.kind = StreamKind::face;
+    for (int i = 0; i < readings; ++i) {
+      const double c = i * two_pi / 24.37, x = from_mm + (to_mm - from_mm) * i / readings;
+      face.c_rad.push_back(c);
+      face.position_mm.push_back(x);
+      face.reading_mm.push_back(lean * x * std::cos(c) +
+                                wave_mm * std::sin(3.37 * c + two_pi * phase / each) +
+                                noise(engine));
+    }
+    FormOptions options = quick();
+    options.trials = 100;
+    const FormResult result = assess_form(face, options);
+    const FormValue& total = value_of(group_of(result, "datum"), "axial_runout_total");
+    above += least_of(total, 2.0) > 2.0 * lean * to_mm ? 1 : 0;
+    const FormValue& turn = value_of(group_of(result, "datum"), "axial_runout_circular");
+    // The last turn is that of the largest radius, but for its feed of 0.6 mm.
+    EXPECT_GE(most_of(turn, 2.0), 2.0 * lean * (to_mm - 0.6));
+    EXPECT_LE(most_of(turn, 2.0), most_of(total, 2.0));
+  }
+  // 2.5 % each: of 20 more than 3 once in 2000 times.
+  EXPECT_LE(above, 3);
+}
+
+// A chip of 50 µm on a face that leans by 1e-4: the lower end is not above the run-out of the face.
+TEST(FormWhole, AChipIsNotProvenRunOut) {
+  constexpr double lean = 1e-4, x_mm = 20.0;
+  boost::random::mt19937_64 engine(5);
+  boost::random::normal_distribution<double> noise(0.0, 2e-4);
+  ProbeStream face;
+  face.kind = StreamKind::face;
+  for (int i = 0; i < 360; ++i) {
+    const double c = i * 3.0 * rad_per_deg;
+    face.c_rad.push_back(c);
+    face.position_mm.push_back(x_mm);
+    face.reading_mm.push_back(lean * x_mm * std::cos(c) + (i == 100 ? 0.05 : 0.0) + noise(engine));
+  }
+  const FormResult result = assess_form(face, quick());
+  for (const char* name : {"axial_runout_circular", "axial_runout_total"}) {
+    const FormValue& value = value_of(group_of(result, "datum"), name);
+    EXPECT_LE(least_of(value, 2.0), 2.0 * lean * x_mm);
+    EXPECT_GE(most_of(value, 2.0), 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

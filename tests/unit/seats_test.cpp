@@ -268,6 +268,81 @@ TEST(Seats, TheBallIsClearOfTheEdges) {
   EXPECT_NEAR(found.seats[1].z.from_mm, 22.0, 0.5);
 }
 
+/// What is probed from `first_mm` on, after what is there.
+void then(ProbeStream& stream, const Probing& how, double radius_mm, double taper,
+          double first_mm) {
+  std::mt19937_64 random(11);
+  const ProbeStream next = probed(
+      how, [&](double z, double) { return radius_mm + taper * z; },
+      [](double z, double) {
+        return Offset{0.03 + 1e-4 * z, 0.01};
+      },
+      random);
+  const double c0 = stream.size() == 0 ? 0.0 : turn * std::ceil(stream.c_rad.back() / turn + 1);
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    stream.reading_mm.push_back(next.reading_mm[i]);
+    stream.c_rad.push_back(c0 + next.c_rad[i]);
+    stream.position_mm.push_back(first_mm + next.position_mm[i]);
+  }
+}
+
+// Each seat has a feed of its own: the coarser to four times the finer, in either order, with a
+// pass of its own or without. No seat may be lost; a turn may be at each end.
+TEST(Seats, EachSeatHasAFeedOfItsOwn) {
+  for (const double ratio : {1.6, 2.0, 4.0})
+    for (const bool coarse_first : {true, false})
+      for (const bool passes : {true, false}) {
+        SCOPED_TRACE(::testing::Message() << ratio << ' ' << coarse_first << ' ' << passes);
+        const double feed[] = {coarse_first ? 0.6 * ratio : 0.6, coarse_first ? 0.6 : 0.6 * ratio};
+        ProbeStream stream;
+        then(stream, {.length_mm = 25, .feed_mm = feed[0], .per_turn = 37}, 20, 0, 10);
+        stream.pass.assign(stream.size(), 1);
+        then(stream, {.length_mm = 25, .feed_mm = feed[1], .per_turn = 37}, 25, 0, 90);
+        stream.pass.resize(stream.size(), 2);
+        if (!passes) stream.pass.clear();
+        const Seats found = find_seats(stream);
+        ASSERT_EQ(found.seats.size(), 2u);
+        EXPECT_TRUE(found.left_out.empty());
+        for (const std::size_t i : {0u, 1u}) {
+          EXPECT_LE(found.seats[i].z.from_mm, (i == 0 ? 10 : 90) + feed[i]);
+          EXPECT_GE(found.seats[i].z.to_mm, (i == 0 ? 35 : 115) - feed[i]);
+        }
+      }
+}
+
+// The line of the cone meets the cylinder just before the cone's last section, which is of the
+// cone.
+TEST(Seats, TwoSectionsEachKeepBoth) {
+  const Probing sections{.length_mm = 12.8129, .sections = 2};
+  for (const double taper : {0.27, -0.27}) {
+    ProbeStream stream;
+    then(stream, sections, 20, 0, 20);
+    then(stream, sections, 22, taper, 55);
+    then(stream, sections, 22 + taper * 12.7, 0, 90);
+    const Seats found = find_seats(stream);
+    ASSERT_EQ(found.seats.size(), 3u);
+    for (const Seat& seat : found.seats)
+      EXPECT_EQ(seat.readings, 2u * static_cast<unsigned>(sections.per_turn));
+    EXPECT_TRUE(found.left_out.empty());
+  }
+}
+
+// The spindle does not turn at the first seat, which has no radius then.
+TEST(Seats, WhatIsOfNoSeatIsCounted) {
+  ProbeStream stream;
+  then(stream, {.length_mm = 25}, 20, 0, 10);
+  const std::size_t first = stream.size();
+  for (double& c : stream.c_rad) c *= 1e-4;
+  then(stream, {.length_mm = 25}, 22, 0, 50);
+  then(stream, {.length_mm = 25}, 25, 0, 90);
+  const Seats found = find_seats(stream);
+  ASSERT_EQ(found.seats.size(), 2u);
+  ASSERT_EQ(found.left_out.size(), 1u);
+  EXPECT_EQ(found.left_out[0].readings, first);
+  EXPECT_EQ(found.left_out[0].z.from_mm, 10);
+  EXPECT_EQ(found.left_out[0].z.to_mm, 35);
+}
+
 TEST(Seats, AChamferAtTheEndIsNoSeat) {
   const Seats found = seats_of({}, [](double z, double) { return 20 - std::max(0.0, z - 38); });
   ASSERT_EQ(found.seats.size(), 1u);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fit/apex_interval.hpp"
+#include "fit/probe_height.hpp"
 #include "math/linear_algebra.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
@@ -116,6 +117,9 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
     if (!result.budget.empty()) result.budget[0].u[p] = root(from_noise, p);
   }
   add_apex_interval(result.parameters, result.covariance, result.coverage_factor);
+  std::erase_if(result.budget, [](const BudgetLine& line) {  // of the ideal fit
+    return line.source == square_of_height;
+  });
   const auto add_line = [&](std::string source, const Eigen::VectorXd& variance) {
     if (!(variance.maxCoeff() > 0.0)) return;
     BudgetLine line{std::move(source), 'B', {}};
@@ -129,6 +133,8 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
     from_causes -= variance;
     add_line(part.name, variance);
   }
+  if (point.height_mm != 0.0)  // with its u in the noise
+    result.budget.push_back({"probe height, as found", 'A', std::vector<double>(n, 0.0)});
   if (from_causes.maxCoeff() > rounding * joint_covariance.diagonal().maxCoeff())
     add_line("causes that the readings cannot tell", from_causes);
   Eigen::MatrixXd at = Eigen::MatrixXd::Zero(4, 6);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "fit/files/fit_files.hpp"
+#include "fit/probe_height.hpp"
 #include "format/json.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -167,6 +168,7 @@ Json fit_object(const FitResult& result) {
   json["covariance"] = covariance_object(result);
   json["coverage_factor"] = result.coverage_factor;
   json["budget"] = budget(result);
+  if (holds_on_centre_height(result)) json["radius_holds_for"] = "a probe on centre height";
   json["axis"] = axis_object(determined_axis(result));
   json["shape"] = shape_object(result);
   if (result.set_ups.size() > 1) json["set_ups"] = list_of(result.set_ups, set_up_object);

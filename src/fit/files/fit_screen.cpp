@@ -9,6 +9,7 @@
 #include "base/counted.hpp"
 #include "base/hundredths.hpp"
 #include "fit/files/fit_files.hpp"
+#include "fit/probe_height.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 
@@ -25,9 +26,15 @@ std::string parameter_line(const FitResult& result, const std::string& name,
     if (found == list->end()) continue;
     const Estimate e = at_edge(found->estimate);
     const bool small = e.unit == "mm" && std::abs(e.value) < 1.0;
+    // h off it hides h²/2R.
+    constexpr double off_mm = 0.1;
+    const bool on_centre = holds_on_centre_height(result) && label == "radius" && e.determined();
     return padded(label, 7) +
            plus_minus(e, result.coverage_factor, small ? 1.0 / mm_per_um : 1.0,
                       small ? "µm" : e.unit) +
+           (on_centre ? fmt::format(" with the probe on centre height; {:g} mm off hides {}",
+                                    off_mm, um(off_mm * off_mm / (2.0 * e.value)))
+                      : "") +
            "\n";
   }
   return "";

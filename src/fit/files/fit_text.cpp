@@ -8,6 +8,7 @@
 
 #include "base/number.hpp"
 #include "fit/files/fit_files.hpp"
+#include "fit/probe_height.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -74,6 +75,7 @@ std::string fit_text(const FitResult& result) {
   append(text, "  parameters ± U (k = {:.3g})\n", result.coverage_factor);
   append_parameters(text, result.parameters, result.coverage_factor);
   append_parameters(text, result.derived, result.coverage_factor);
+  if (holds_on_centre_height(result)) text += "  the radius is that for a probe on centre height\n";
   if (result.set_ups.size() > 1) {
     for (const SetUpFit& one : result.set_ups) append_set_up(text, one, result.coverage_factor);
   }
