@@ -58,6 +58,7 @@ struct ShapeValues {
     itself,        ///< the parameter's own unit
     half_lengths,  ///< a place: the middle of the probed length plus so many halves of it
     per_length,    ///< a wavelength: the probed length over the value
+    turns,         ///< a length: that which so many turns of the longest pass go along
     per_swing,     ///< a wavelength: the range of what the probe senses over the value
     duration,      ///< a time: share of what the measurement lasts
     instant        ///< when so large a share of the readings is recorded

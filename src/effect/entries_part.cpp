@@ -186,8 +186,9 @@ std::vector<Effect> part_roundness() {
 }
 
 std::vector<Effect> part_profile() {
+  // Less than a turn is no form all round: readings of it may be chips.
   const ShapeValues end_reaches{
-      &TermShape::decay_length_mm, {8.0, 16.0, 32.0, 64.0}, ShapeValues::In::per_length};
+      &TermShape::decay_length_mm, {1.0, 2.0, 4.0, 8.0}, ShapeValues::In::turns};
   return {
       {.id = "part.barrel",
        .title = "barrel or saddle: the generator is curved",
@@ -231,7 +232,7 @@ std::vector<Effect> part_profile() {
        .search = {.forms = {{{0}, end_reaches, 4},
                             {{1}, end_reaches, 4},
                             {{0, 1}, end_reaches, 4}}},
-       .refinement = Refinement{&TermShape::decay_length_mm, By::factor, 2.0, 0.05, 50.0}},
+       .refinement = Refinement{&TermShape::decay_length_mm, By::factor, 4.0, 0.05, 50.0}},
       {.id = "part.taper",
        .title = "taper of a cylinder",
        .slot = Slot::part,

@@ -30,7 +30,7 @@ Range range_of_size(const EffectParameter* p, const TermShape& shape) {
 }
 
 /// Amplitude of a wave of the surface as a ball reads it that lies on two crests: half of
-/// r − √(r² − λ²/4) (Eq. 43b); 0: it is no such wave, or any size can be.
+/// r − √(r² − λ²/4) (Eq. 43b); 0: another term, or any size can be.
 double most_of_wave(const Hypothesis& h) {
   const auto* wave = std::get_if<PeriodicInZ>(&h.effect->term);
   const double r = h.shape.ball_radius_mm, half_mm = 0.5 * std::abs(h.shape.period_mm);

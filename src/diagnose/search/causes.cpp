@@ -108,6 +108,13 @@ bool is_any_motion(const EffectTerm& term, const SearchForm& form) {
   return harmonic && harmonic->envelope == Harmonic::Envelope::lever && form.free.empty();
 }
 
+double turns_of_longest_pass(const LinearisationPoint& point) {
+  double most = 1.0;
+  for (const Pass& pass : point.passes)
+    most = std::max(most, std::abs(point.c[pass.end - 1] - point.c[pass.begin]) / two_pi);
+  return most;
+}
+
 /// How many orders a harmonic of free order is tried at.
 double orders_of(const Effect& effect, const Resolution& resolution) {
   return effect.search.highest_order > 0 ? effect.search.highest_order - 1 : resolution.harmonics;
@@ -121,6 +128,8 @@ double value_in(ShapeValues::In in, double value, const LinearisationPoint& poin
       return point.z_mid_mm + value * point.z_half_mm;
     case ShapeValues::In::per_length:
       return 2.0 * point.z_half_mm / value;
+    case ShapeValues::In::turns:
+      return value * 2.0 * point.z_half_mm / turns_of_longest_pass(point);
     case ShapeValues::In::per_swing:
       return std::max(point.swing_mm, least_swing_mm) / value;
     case ShapeValues::In::duration:
