@@ -186,7 +186,7 @@ std::vector<Effect> part_roundness() {
 }
 
 std::vector<Effect> part_profile() {
-  // Less than a turn is no form all round: readings of it may be chips.
+  // Over less than a turn it need not be all round, and may be chips.
   const ShapeValues end_reaches{
       &TermShape::decay_length_mm, {1.0, 2.0, 4.0, 8.0}, ShapeValues::In::turns};
   return {
