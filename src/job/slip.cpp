@@ -14,6 +14,14 @@ bool is_slip(const Diagnosis& diagnosis, std::string_view id) {
   return effect && is_step(effect->term);
 }
 
+/// Whether it is a part that moves over the whole stream: where it ends, no reading tells.
+bool goes_on(const Diagnosis& diagnosis, std::string_view id) {
+  return is_slip(diagnosis, id) &&
+         std::ranges::any_of(diagnosis.entry(id)->typical, [](const ShapeValues& v) {
+           return v.parameter == &TermShape::duration_s;
+         });
+}
+
 Estimate parameter_of(const Finding& finding, std::string_view name) {
   for (const FitParameter& p : finding.parameters) {
     if (p.name == name) return p.estimate;
@@ -94,7 +102,8 @@ bool axis_is_of_all(const Diagnosis& diagnosis, const Finding& finding) {
       return share.instead_of == finding.effect() && share.effect == rival.effect &&
              share.axis_shift.value <= U_mm;
     };
-    return rival.probability < negligible || std::ranges::any_of(diagnosis.shares, is_near);
+    return rival.probability < negligible ||
+           (!goes_on(diagnosis, rival.effect) && std::ranges::any_of(diagnosis.shares, is_near));
   });
 }
 

@@ -170,7 +170,9 @@ Stretches straight_stretches(const SeatProfile& profile) {
   return out;
 }
 
-constexpr double least_share = 0.15;        // of the longest: shorter ones are chamfers, fillets
+constexpr double least_share = 0.15;  // of the longest: shorter ones are chamfers, fillets
+constexpr std::size_t fewest_turns =
+    4;  // two tell lobes from a tilt, and its ends may cut one each
 constexpr double groove_share = 1.0 / 3.0;  // of both neighbours
 constexpr std::size_t most_seats = 12;      // more are a thread or no part
 constexpr std::size_t turns_at_an_end = 5;  // that tell how a seat goes on
@@ -363,7 +365,9 @@ Seats find_seats(const ProbeStream& stream) {
   std::vector<std::size_t> of_seat;
   for (std::size_t i = 0; i < found.stretches.size(); ++i) {
     const Stretch& s = found.stretches[i];
-    if (length_mm(profile, s) < least_share * longest || is_groove(profile, found, i)) continue;
+    const bool few_turns = !profile.sections && s.last - s.first + 1 < fewest_turns;
+    if (few_turns || length_mm(profile, s) < least_share * longest || is_groove(profile, found, i))
+      continue;
     out.seats.push_back({{end_of(stream, profile, s, false), end_of(stream, profile, s, true)}, 0});
     of_seat.push_back(i);
   }

@@ -343,6 +343,16 @@ TEST(Seats, WhatIsOfNoSeatIsCounted) {
   EXPECT_EQ(found.left_out[0].z.to_mm, 35);
 }
 
+// Of 2.4 turns one is left between its edges, which tells nothing: it was a cone, on which the part
+// slipped.
+TEST(Seats, ABandOfTwoTurnsIsNoSeat) {
+  const Probing how{.feed_mm = 40.0 / 31, .per_turn = 24};
+  const Seats found =
+      seats_of(how, [](double z, double) { return std::abs(z - 20) < 1.55 ? 20.02 : 20.0; });
+  EXPECT_NE(found.seats.size(), 1u);
+  for (const Seat& seat : found.seats) EXPECT_GT(seat.z.to_mm - seat.z.from_mm, 2.0 * how.feed_mm);
+}
+
 TEST(Seats, AChamferAtTheEndIsNoSeat) {
   const Seats found = seats_of({}, [](double z, double) { return 20 - std::max(0.0, z - 38); });
   ASSERT_EQ(found.seats.size(), 1u);

@@ -95,6 +95,9 @@ TEST(Slip, WithARivalThatLeavesTheAxisWithinUIsNoObjection) {
   };
   EXPECT_EQ(moves_axis_by(0.5 * U_mm), "");
   EXPECT_NE(moves_axis_by(1.5 * U_mm), "");
+  result.diagnoses.front()->findings.front().rivals.front().effect = "part.creep";  // goes on
+  diagnosis.shares = {{"part.creep", "part.slip", 0.86, {0.0, 1e-4, "mm", ""}}};
+  EXPECT_NE(objection(result), "");
   EXPECT_TRUE(is_likely_slip(diagnosis));
   EXPECT_FALSE(is_sure_slip(diagnosis));
 }
