@@ -221,7 +221,7 @@ std::vector<Effect> part_profile() {
                       {"high", "mm", 2e-3, 0.05, "b", {}, 0.0, -0.5, 0.5},
                       {"reach", "mm", 0.2, 20, "L", "decay_length_mm"}},
        .signature = "no undulation around, at an end of the probed length alone",
-       .consequence = "no harm to the axis; probe clear of the end",
+       .consequence = "the form of the part: probe clear of the end",
        .confounders = {"thermal.drift"},
        .separations = {{"RZ", "a form at the start reads the same again, a drift does not"},
                        {"OZ", "the form moves with the part"}},
