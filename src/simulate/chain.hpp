@@ -81,6 +81,8 @@ struct Chain {
   std::vector<std::function<PartStep(double t_s)>> step;         // C, part in the chuck
   std::vector<std::function<double(const Sensed&)>> response;    // E
   bool local_form = false;  ///< form with edges: contacts are searched step by step from outside
+  double waves_mm = 0.0;    ///< amplitudes of all waves along the surface, and the shortest of them
+  double shortest_mm = std::numeric_limits<double>::infinity();
   bool needs_normal = false;
   double lag_s = 0.0;
   double play_mm = 0.0;

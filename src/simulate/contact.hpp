@@ -6,6 +6,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -86,25 +87,54 @@ Vec3 normal_at(const Gap& gap, const Vec3& p) {
   const Vec3 g{gap({p.x + h, p.y, p.z}) - gap({p.x - h, p.y, p.z}),
                gap({p.x, p.y + h, p.z}) - gap({p.x, p.y - h, p.z}),
                gap({p.x, p.y, p.z + h}) - gap({p.x, p.y, p.z - h})};
-  return (1.0 / std::sqrt(dot(g, g))) * g;
+  return unit(g);
 }
 
 /// Reading of a ball: the centre is off the contact by the radius along the normal, outwards of
 /// the material (`stand_off` > 0) or inwards of a bore (< 0). `point_reading(line)` finds the
-/// contact of a point on a line.
+/// contact of a point on a line. With `aside` the centre keeps over the contact along it.
 template <class Gap, class PointReading>
-std::optional<double> ball_reading(const Gap& gap, const Line& line, double stand_off,
-                                   const PointReading& point_reading) {
+std::pair<std::optional<double>, Vec3> settled_ball(const Gap& gap, const Line& line,
+                                                    double stand_off, const Vec3& aside,
+                                                    const PointReading& point_reading) {
   std::optional<double> q = point_reading(line);
   Vec3 offset;
   for (int step = 0; q && step < 200; ++step) {
-    const Vec3 next = (-stand_off) * normal_at(gap, line.at(*q) + offset);
+    const Vec3 normal = normal_at(gap, line.at(*q) + offset);
+    const Vec3 next = (-stand_off) * unit(normal - dot(normal, aside) * aside);
     const Vec3 moved = next - offset;
     offset = next;
     q = point_reading(Line{line.base + offset, line.direction});
     if (dot(moved, moved) < 1e-18) break;  // 1 nm aside on the surface: 1e-14 mm in the reading
   }
-  return q;
+  return {q, offset};
+}
+
+/// Waves of a surface along a unit vector, and how far off a ball may touch them.
+struct Crests {
+  Vec3 along;
+  double reach_mm = 0.0, step_mm = 0.0;
+};
+
+/// Reading of a ball that may touch waves in several places, because they bend more than it does:
+/// the first that stops it, of all places within reach.
+template <class Gap, class PointReading>
+std::optional<double> reading_on_crests(const Gap& gap, const Line& line, double stand_off,
+                                        const Crests& crests, const PointReading& point_reading) {
+  const auto [over, ahead] = settled_ball(gap, line, stand_off, crests.along, point_reading);
+  if (!over) return std::nullopt;
+  const double r = std::abs(stand_off), sign = std::copysign(1.0, -stand_off);
+  const auto stop = [&, ahead = ahead](double s) {  // the less, the earlier it stops
+    const Vec3 at = s * crests.along + std::sqrt(1.0 - s * s / (r * r)) * ahead;
+    const std::optional<double> q = point_reading(Line{line.base + at, line.direction});
+    return q ? sign * *q : std::numeric_limits<double>::infinity();
+  };
+  double best = 0.0, least = sign * *over;
+  for (double s = -crests.reach_mm; s <= crests.reach_mm; s += crests.step_mm) {
+    if (const double q = stop(s); q < least) best = s, least = q;
+  }
+  const double low = best - crests.step_mm, high = best + crests.step_mm;
+  return sign * boost::math::tools::brent_find_minima(stop, low, high, 26).second;
 }
 
 }  // namespace trueaxis::virtual_lathe

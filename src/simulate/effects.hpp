@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <boost/math/special_functions/legendre.hpp>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string_view>
 #include <tuple>
 
 #include "simulate/chain.hpp"
+#include "trueaxis/units.hpp"
 
 /// The catalogue of the virtual lathe: what an effect is and how it enters the chain.
 namespace trueaxis::virtual_lathe {
@@ -59,6 +62,17 @@ constexpr Enters in(Formula) {
   return [](const Values& of, Chain& chain) {
     (chain.*slot).push_back(with_values(Formula{}, &Formula::operator(), of));
   };
+}
+
+/// A wave of the surface, a cos(2π s/wavelength + turns θ + phase).
+template <int turns>
+void enter_wave(const Values& of, Chain& chain) {
+  const auto [a, wavelength, phase] = of.all<3>();
+  chain.form.push_back([a, k = two_pi / wavelength, phase](const SurfacePoint& p) {
+    return a * std::cos(k * p.s_mm + turns * p.theta_rad + phase);
+  });
+  chain.waves_mm += std::abs(a);
+  chain.shortest_mm = std::min(chain.shortest_mm, std::abs(wavelength));
 }
 
 /// Legendre polynomial P_l, also a little outside [−1, 1], where a probe may overrun.

@@ -41,9 +41,7 @@ constexpr EffectEntry face_table[] = {
     {"part.face_spiral",
      "a cos(2 pi r / feed + theta + phase)",
      {{"amplitude_mm", {}}, {"feed_mm_per_rev", {}}, {"phase_rad", 0.0}},
-     in<form>([](const SurfacePoint& p, double a, double feed, double phase) {
-       return a * std::cos(two_pi / feed * p.s_mm + p.theta_rad + phase);
-     })},
+     enter_wave<1>},
     {"part.seat_slip",
      "step of the part along Z and of its tilt at a time, or evenly over a duration from then",
      {{"time_s", {}},

@@ -54,15 +54,11 @@ constexpr EffectEntry part_table[] = {
     {"part.waviness",
      "a cos(2 pi s / wavelength + phase)",
      {{"amplitude_mm", {}}, {"wavelength_mm", {}}, {"phase_rad", 0.0}},
-     in<form>([](const SurfacePoint& p, double a, double wavelength, double phase) {
-       return a * std::cos(two_pi / wavelength * p.s_mm + phase);
-     })},
+     enter_wave<0>},
     {"part.feed_marks",
      "a cos(2 pi s / feed - theta + phase)",
      {{"amplitude_mm", {}}, {"feed_mm_per_rev", {}}, {"phase_rad", 0.0}},
-     in<form>([](const SurfacePoint& p, double a, double feed, double phase) {
-       return a * std::cos(two_pi / feed * p.s_mm - p.theta_rad + phase);
-     })},
+     enter_wave<-1>},
     // The axis is a parabola: sagitta at half the length from its middle, towards `direction`,
     // which
     // the part's axis touches in the middle, or is `share` of the sagitta away from.

@@ -14,6 +14,7 @@ inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b
 inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vec3 operator*(double f, const Vec3& a) { return {f * a.x, f * a.y, f * a.z}; }
 inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 unit(const Vec3& a) { return (1.0 / std::sqrt(dot(a, a))) * a; }
 
 /// spindle_from_part: origin and the part's three axes in the spindle frame.
 struct RigidFrame {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/contact.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -102,6 +101,16 @@ std::optional<double> Prober::contact(const Gap& gap, const Line& line, double c
   return root_outside(on_line, centre, reach);
 }
 
+// Farther off than 2 √(R a) the ball is higher than any wave of amplitude a.
+Crests Prober::crests(const Line& line, double centre, const Vec3& towards) const {
+  const Vec3 at = line.at(body_.face() ? centre : centre + body_.radius_at(line.base.z));
+  const auto ideal = [this](const Vec3& p) { return body_.ideal_gap(p); };
+  const Vec3 normal = normal_at(ideal, at);
+  const double reach_mm = 2.0 * std::sqrt(ball_mm_ * chain_.waves_mm);
+  return {unit(towards - dot(towards, normal) * normal), std::min(reach_mm, 0.99 * ball_mm_),
+          chain_.shortest_mm / 32.0};
+}
+
 template <class Gap>
 CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_incidence) const {
   const PartView view = view_at(state);
@@ -122,9 +131,14 @@ CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_i
     centre = -(line.base.x * line.direction.x + line.base.y * line.direction.y);
   }
   const auto point_reading = [&](const Line& on) { return contact(gap, on, centre); };
-  std::optional<double> q = ball_mm_ > 0.0
-                                ? ball_reading(gap, line, outward_ * ball_mm_, point_reading)
-                                : point_reading(line);
+  std::optional<double> q;
+  if (ball_mm_ > 0.0 && chain_.waves_mm * ball_mm_ * std::pow(two_pi / chain_.shortest_mm, 2) > 0.5)
+    q = reading_on_crests(gap, line, outward_ * ball_mm_,
+                          crests(line, centre, face ? view.ex : view.ez), point_reading);
+  else if (ball_mm_ > 0.0)
+    q = settled_ball(gap, line, outward_ * ball_mm_, {}, point_reading).first;
+  else
+    q = point_reading(line);
   if (!q) miss(state.at);
 
   CleanReading reading;

@@ -5,6 +5,7 @@
 
 #include "simulate/body.hpp"
 #include "simulate/chain.hpp"
+#include "simulate/contact.hpp"
 #include "simulate/timeline.hpp"
 
 namespace trueaxis::virtual_lathe {
@@ -34,6 +35,7 @@ class Prober {
   PartView view_at(const TrueState& state) const;
   template <class Gap>
   std::optional<double> contact(const Gap& gap, const Line& line, double centre) const;
+  Crests crests(const Line& line, double centre, const Vec3& towards) const;
   template <class Gap>
   CleanReading read_on(const Gap& gap, const TrueState& state, bool with_incidence) const;
 

@@ -163,6 +163,30 @@ TEST(SimulateProbe, BallStandsOffByItsRadiusOverCosAlpha) {
   }
 }
 
+// The centre of a ball is a radius off the wall at the least: the farthest that any point of the
+// wave lets it go, here by points 0.01 µm apart: (a k² + 1/R) (0.005 µm)²/2 = 7e-11 mm short of it.
+TEST(SimulateProbe, BallRidesOnTheCrestsOfAWaveThatBendsMoreThanItDoes) {
+  constexpr double wave_mm = 0.15;
+  for (const double a_mm : {1e-4, 3e-4, 3e-3}) {
+    for (const double side : {1.0, -1.0}) {
+      Scenario scenario = dwell(40.0, 10.0, 40.0);
+      scenario.plan.passes[0].end_mm = 10.4;
+      scenario.probe.ball_radius_mm = 3.0;
+      scenario.part.bore = side < 0.0;
+      scenario.effects = {{"part.waviness", {{"amplitude_mm", a_mm}, {"wavelength_mm", wave_mm}}}};
+      const ProbeStream stream = simulate(scenario);
+      for (std::size_t i = 0; i < stream.size(); ++i) {
+        double stop_mm = -std::numeric_limits<double>::infinity();
+        for (double off = -0.5 * wave_mm; off < 0.5 * wave_mm; off += 1e-5)
+          stop_mm = std::max(
+              stop_mm, side * a_mm * std::cos(two_pi * (stream.position_mm[i] + off) / wave_mm) +
+                           std::sqrt(9.0 - off * off));
+        EXPECT_NEAR(stream.reading_mm[i], 40.0 + side * stop_mm, 1e-10) << a_mm << " mm, " << side;
+      }
+    }
+  }
+}
+
 TEST(SimulateProbe, FaceReadsItsPlane) {
   Scenario scenario = dwell(0.0, 30.0);
   scenario.part = Part{};
