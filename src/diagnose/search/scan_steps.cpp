@@ -30,6 +30,7 @@ constexpr std::size_t per_column = least_beside_step / 2;  // readings next to a
 constexpr std::size_t few = 16;  // readings per column: with so few on a side two are ignored
 constexpr double kept = 0.25;    // share of the gain that is there without them: of eight (6/8)²
 constexpr double lasting[] = {1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0};  // of all time
+constexpr Index most_dates = 4096;  // tried at first; of more readings, those about the best then
 constexpr double as_likely = 12.0;  // σ² of the sum of squares: dates among which sizes decide
 
 /// Whether a row is one of the noise model's: it and those that predict it are there.
@@ -94,9 +95,16 @@ std::array<Index, 2> two_largest(const Eigen::VectorXd& left, Index k) {
   return out;
 }
 
-/// Steps between any two readings that have enough on both sides.
+/// Readings that a step may come before.
+struct Window {
+  Index from, to, every = 1;
+  bool has(Index k) const { return k >= from && k <= to && (k - from) % every == 0; }
+};
+
+/// Steps between two readings of a window that have enough on both sides.
 std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& phi, const Rows& rows,
-                           const ByRows& taken, const Eigen::VectorXd& left, Index columns) {
+                           const ByRows& taken, const Eigen::VectorXd& left, Index columns,
+                           const Window& window) {
   const std::span<const double> time = problem.point.time;
   const Matrix step_raw = rows.raw.rightCols(columns), step = rows.white.rightCols(columns);
   const auto least = static_cast<Index>(least_beside_step);
@@ -118,10 +126,10 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
   Sums before{Square::Zero(columns, columns), Vector::Zero(columns),
               Matrix::Zero(columns, taken.cols())};
   Sums with_after;
-  for (Index k = 1; k + least <= size; ++k) {
+  for (Index k = 1; k + least <= std::min(size, window.to + least); ++k) {
     const auto reading = static_cast<std::size_t>(k);
     add(k - 1, step.row(k - 1), before);
-    if (k < least || !(time[reading] > time[reading - 1])) continue;
+    if (k < least || !window.has(k) || !(time[reading] > time[reading - 1])) continue;
     if (lags > 0) with_after = before;
     // Readings just after the step are predicted from those before it.
     for (Index row = k; row < std::min(size, k + lags); ++row) {
@@ -229,7 +237,11 @@ std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>&
   const auto columns = static_cast<Index>(all.back().columns());
   const ByRows taken = orthonormal(rows.white.middleCols(1, rows.white.cols() - 1 - columns));
   const Eigen::VectorXd left = rows.white.col(0) - taken * (taken.transpose() * rows.white.col(0));
-  const std::vector<Date> dates = dates_of(problem, phi, rows, taken, left, columns);
+  const auto dates_in = [&](const Window& window) {
+    return dates_of(problem, phi, rows, taken, left, columns, window);
+  };
+  const Index every = 1 + rows.white.rows() / most_dates;
+  const std::vector<Date> dates = dates_in({0, rows.white.rows(), every});
   std::vector<Hypothesis> out;
   for (const SearchForm& form : effect.search.forms) {
     if (problem.resolution.degrees < form.degrees) continue;
@@ -237,10 +249,19 @@ std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>&
     std::vector<Index> free;
     for (std::size_t j = 0; j < h.columns(); ++j)
       free.push_back(static_cast<Index>(form.free.empty() ? j : form.free[j]));
-    const Date* date =
-        most_likely(free, size_prior(h), dates, time.size(), left.squaredNorm(),
-                    std::max(1.0, static_cast<double>(rows.white.rows() - taken.cols())));
+    const auto likely_of = [&](const std::vector<Date>& some) {
+      return most_likely(free, size_prior(h), some, time.size(), left.squaredNorm(),
+                         std::max(1.0, static_cast<double>(rows.white.rows() - taken.cols())));
+    };
+    const Date* date = likely_of(dates);
     if (date == nullptr) continue;
+    std::vector<Date> near;
+    if (every > 1) {
+      const auto at = static_cast<Index>(date->reading);
+      near = dates_in({at - every, at + every});
+      date = likely_of(near);
+      if (date == nullptr) continue;
+    }
     h.shape.onset_s = 0.5 * (time[date->reading - 1] + time[date->reading]);
     out.push_back(h);
     add_lasting(h, problem, out);
