@@ -58,7 +58,7 @@ struct ShapeValues {
     itself,        ///< the parameter's own unit
     half_lengths,  ///< a place: the middle of the probed length plus so many halves of it
     per_length,    ///< a wavelength: the probed length over the value
-    turns,         ///< a length: that which so many turns of the longest pass go along
+    turns,         ///< a reach at an end: what so many turns of the longest pass go along
     per_swing,     ///< a wavelength: the range of what the probe senses over the value
     duration,      ///< a time: share of what the measurement lasts
     instant        ///< when so large a share of the readings is recorded
@@ -110,6 +110,7 @@ struct SpectralLine {
 struct Refinement {
   enum class By {
     factor,    ///< times exp(range d)
+    at_end,    ///< the same, at most an eighth of the probed length: the middle is without it
     sum,       ///< plus range d
     duration,  ///< plus what the measurement lasts times d, within it
     lever  ///< κ plus d, κ the half length over the distance of the middle: what data show of it

@@ -115,6 +115,9 @@ double turns_of_longest_pass(const LinearisationPoint& point) {
   return most;
 }
 
+/// Reach of a form at an end that leaves the middle half of the length as it is, within 14 %.
+double longest_end_mm(const LinearisationPoint& point) { return 0.25 * point.z_half_mm; }
+
 /// How many orders a harmonic of free order is tried at.
 double orders_of(const Effect& effect, const Resolution& resolution) {
   return effect.search.highest_order > 0 ? effect.search.highest_order - 1 : resolution.harmonics;
@@ -129,7 +132,8 @@ double value_in(ShapeValues::In in, double value, const LinearisationPoint& poin
     case ShapeValues::In::per_length:
       return 2.0 * point.z_half_mm / value;
     case ShapeValues::In::turns:
-      return value * 2.0 * point.z_half_mm / turns_of_longest_pass(point);
+      return std::min(value * 2.0 * point.z_half_mm / turns_of_longest_pass(point),
+                      longest_end_mm(point));
     case ShapeValues::In::per_swing:
       return std::max(point.swing_mm, least_swing_mm) / value;
     case ShapeValues::In::duration:
@@ -255,6 +259,9 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
     switch (r.by) {
       case Refinement::By::factor:
         value = std::clamp(value * std::exp(r.range * d), r.low, r.high);
+        break;
+      case Refinement::By::at_end:
+        value = std::min(std::max(value * std::exp(r.range * d), r.low), longest_end_mm(point));
         break;
       case Refinement::By::sum:
         value = std::clamp(value + r.range * d, r.low, r.high);
