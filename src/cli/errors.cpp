@@ -11,6 +11,7 @@
 #include "cli/results.hpp"
 #include "format/notes.hpp"
 #include "format/outputs.hpp"
+#include "format/text_layout.hpp"
 #include "machine/files/errors_files.hpp"
 #include "machine/limits.hpp"
 #include "machine/sampled_errors.hpp"
@@ -64,10 +65,11 @@ std::string loss_line(const ErrorsArguments& options, const Machine& machine,
   const SamplingLoss loss =
       sampling_loss(machine, errors, *sign_of(options.output_sign), options.points);
   return fmt::format(
-      "table  {} points an axis, linear between them: each error is off by at most {:.2g} µm or "
-      "{:.2g} µrad, and the tip by more, as errors add up and an angle acts at its lever; more "
+      "table  {} points an axis, linear between them: each error is off by at most {} µm or "
+      "{} µrad, and the tip by more, as errors add up and an angle acts at its lever; more "
       "--points lose less\n",
-      options.points, loss.length_mm / mm_per_um, 1e6 * loss.angle_rad);
+      options.points, layout::bound(loss.length_mm / mm_per_um),
+      layout::bound(1e6 * loss.angle_rad));
 }
 
 int execute(const ErrorsArguments& options) {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/counted.hpp"
+#include "base/number.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
@@ -103,8 +104,8 @@ std::string left_text(const Left& left, const Machine& machine) {
         "is turned by twenty times at most what it turns the tool\n",
         direction_mrad);
   return fmt::format(
-      "note   the axes cannot correct {:.2g} µm at the tip and {:.2g} mrad of the direction\n",
-      tip_um, direction_mrad);
+      "note   the axes cannot correct {} µm at the tip and {:.2g} mrad of the direction\n",
+      significant(tip_um, 2), direction_mrad);
 }
 
 /// For each point its solutions, an axis in mm or deg by its letter.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -52,17 +55,22 @@ class Source {
       : bytes_(options.hal ? ArrivingBytes::of_program("halsampler")
                            : ArrivingBytes::of_file(options.run.stream.path)),
         idle_s_(options.idle_s) {
-    const std::string& path = options.run.stream.path;
-    if (!bytes_.is_open()) throw InputError(path, "cannot be opened: give a file that is there");
-    grows_ = !options.hal && path != "-" && std::filesystem::is_regular_file(path);
+    path_ = options.run.stream.path;
+    if (!bytes_.is_open()) throw InputError(path_, "cannot be opened: give a file that is there");
+    grows_ = !options.hal && path_ != "-" && std::filesystem::is_regular_file(path_);
   }
 
   /// Waits at most a fifth of the time between two pictures; false: there is no more.
   bool read(ArrivingText& text) {
     if (!bytes_.wait(40)) return stopped == 0;
     static char buffer[1 << 16];
-    if (const std::size_t got = bytes_.read(buffer, sizeof buffer); got > 0) {
+    const std::size_t got = bytes_.read(buffer, sizeof buffer);
+    overwritten_ = grows_ && is_another();
+    if (overwritten_) return false;
+    if (got > 0) {
       text.add({buffer, got});
+      read_ += got;
+      tail_.append(buffer, got).erase(0, tail_.size() - std::min<std::size_t>(tail_.size(), 256));
       last_ = Clock::now();
     } else if (!grows_ || Clock::now() - last_ > std::chrono::duration<double>(idle_s_)) {
       return false;
@@ -72,9 +80,23 @@ class Source {
     return stopped == 0;
   }
 
+  bool overwritten() const { return overwritten_; }
+
  private:
+  /// Whether the last that was read of the file is no longer there.
+  bool is_another() const {
+    std::ifstream file(path_, std::ios::binary);
+    if (!file) return false;
+    std::string there(tail_.size(), '\0');
+    file.seekg(static_cast<std::streamoff>(read_ - tail_.size()));
+    file.read(there.data(), static_cast<std::streamsize>(there.size()));
+    return there != tail_;
+  }
+
   ArrivingBytes bytes_;
-  bool grows_ = false;
+  std::string path_, tail_;
+  std::size_t read_ = 0;
+  bool grows_ = false, overwritten_ = false;
   double idle_s_;
   Clock::time_point last_ = Clock::now();
 };
@@ -211,10 +233,12 @@ int execute(WatchArguments& options) {
     outputs.check();
     return checked(outputs, "watch what arrives, and then run it");
   }
-  ArrivingText text(options.run.stream.path, options.hal ? TextForm::halsampler : TextForm::csv,
-                    from_pipe);
-  Watch watch(options);
-  {
+  std::optional<ArrivingText> arriving;
+  std::optional<Watch> watching;
+  for (bool again = true; again;) {
+    ArrivingText& text = arriving.emplace(
+        options.run.stream.path, options.hal ? TextForm::halsampler : TextForm::csv, from_pipe);
+    Watch& watch = watching.emplace(options);
     Source source(options);
     platform::on_stop([](int) { stopped = 1; });
     Clock::time_point due = Clock::now();
@@ -223,9 +247,16 @@ int execute(WatchArguments& options) {
       due = Clock::now() + between_pictures;
       watch.update(text);
     }
-    watch.update(text);
+    again = source.overwritten();
+    if (again)
+      std::cerr << "new    " << options.run.stream.path
+                << " was overwritten: TrueAxis watches the new file from its start" << std::endl;
+    else
+      watch.update(text);
     platform::on_stop(nullptr);
   }
+  ArrivingText& text = *arriving;
+  const Watch& watch = *watching;
   if (text.lost() > 0)
     std::cerr << "lost   halsampler reports " << text.lost()
               << " overruns: raise its depth, or sample more seldom\n";

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/counted.hpp"
+#include "base/number.hpp"
 #include "fit/apex_interval.hpp"
 #include "fit/plausible.hpp"
 #include "fit/probe_height.hpp"
@@ -233,13 +234,13 @@ void add_notes(const ReadingNoise& noise, FitResult& result) {
         fmt::format("stated noise {:.3g} µm, the residuals show {:.3g} µm: ", stated / mm_per_um,
                     shown / mm_per_um) +
         (shown > stated
-             ? fmt::format("TrueAxis computes u from the residuals, {:.2g} times the stated noise; "
+             ? fmt::format("TrueAxis computes u from the residuals, {} times the stated noise; "
                            "the readings contain more than the sensor's noise (form, motion, "
                            "another surface or unit), or the stated noise is too small",
-                           shown / stated)
+                           significant(shown / stated, 2))
              : fmt::format("TrueAxis computes u from the stated noise; if that is too large (a "
-                           "unit?), every u is up to {:.2g} times too large",
-                           stated / shown)));
+                           "unit?), every u is up to {} times too large",
+                           significant(stated / shown, 2))));
   }
   if (result.loss != Loss::plain) return;
   std::vector<double> sample;  // spread evenly: enough for a scale

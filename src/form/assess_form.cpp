@@ -23,6 +23,11 @@ namespace {
 
 constexpr const char* eccentricity = "eccentricity";
 
+WholeModel whole_of(const std::vector<SectionModel>& sections, const FormOptions& options) {
+  const Criterion criteria[] = {Criterion::gaussian, options.datum};
+  return {sections, criteria, options.all_references};
+}
+
 /// How the axis of a datum leans.
 Lean lean_of(const ProbeStream& datum, const FormOptions& options) {
   const Part part = part_of(datum, options);
@@ -31,14 +36,38 @@ Lean lean_of(const ProbeStream& datum, const FormOptions& options) {
     throw InputError(datum.source,
                      "does not show the direction of an axis, which axial run-out is about: probe "
                      "the datum along Z, and state the radius of a gauge");
-  const Criterion criteria[] = {Criterion::gaussian, options.datum};
-  const WholeModel whole(sections, criteria, options.all_references);
+  const WholeModel whole = whole_of(sections, options);
   const auto spread = spreads(part.model, {}, options, [&](const Profiles& near) {
     const AxisLine axis = whole.axis_near(near.part_mm, options.datum);
     return std::vector<NamedValue>{{"", "l", "", axis.l}, {"", "m", "", axis.m}};
   });
   const AxisLine axis = whole.axis(options.datum);
   return {{axis.l, axis.m}, {spread[0].u, spread[1].u}};
+}
+
+/// A face about the axis of a datum. What was subtracted from the datum leans its axis.
+void assess_face_about(const ProbeStream& face, const ProbeStream& datum,
+                       std::span<const TakenOff> taken_off, FormResult& result) {
+  const FormOptions& options = result.options;
+  const Lean lean = lean_of(datum, options);
+  std::vector<std::vector<std::vector<double>>> of_datum;
+  of_datum.reserve(taken_off.size());
+  std::vector<TakenOff> of_face;
+  for (TakenOff one : taken_off) {
+    if (one.of_datum) {
+      auto& columns_mm = of_datum.emplace_back();
+      for (std::size_t k = 0; k < one.columns_mm.size(); ++k) {
+        ProbeStream moved = datum;
+        moved.reading_mm = added(datum.reading_mm, one, k);
+        const Part part = part_of(moved, options);
+        const AxisLine axis = whole_of(part.model.sections, options).axis(options.datum);
+        columns_mm.push_back(leaning(face, {axis.l - lean.slope[0], axis.m - lean.slope[1]}));
+      }
+      one.columns_mm = columns_mm;
+    }
+    of_face.push_back(one);
+  }
+  assess_face(face, lean, of_face, result);
 }
 
 /// One section against an axis: its run-out and concentricity.
@@ -207,7 +236,8 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
       throw InputError(datum->source, "is a face: give the readings of a shaft or a bore as datum");
   }
   if (stream.kind == StreamKind::face) {
-    assess_face(stream, datum ? lean_of(*datum, options) : Lean{}, taken_off, result);
+    datum ? assess_face_about(stream, *datum, taken_off, result)
+          : assess_face(stream, {}, taken_off, result);
     return result;
   }
   Part part = part_of(stream, options);

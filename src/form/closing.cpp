@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::form {
@@ -121,14 +122,14 @@ void Unclosed::note_in(std::vector<std::string>& notes, const char* of) const {
   if (count == 0) return;
   const Closing& step = *steps_[largest];
   notes.push_back(fmt::format(
-      "{}{} not close: after a revolution the readings are {:.3g} ± {:.2g} µm (k = 2) {}. U "
+      "{}{} not close: after a revolution the readings are {} ± {} µm (k = 2) {}. U "
       "includes a drift of that size. Find what drifts or moved, or probe several "
       "revolutions",
       of,
       steps_.size() == 1 ? "The trace does"
                          : fmt::format("{} of {} sections do", count, steps_.size()),
-      std::abs(step.step_mm) / mm_per_um, 2.0 * step.u_mm / mm_per_um,
-      step.step_mm > 0.0 ? "larger" : "smaller"));
+      significant(std::abs(step.step_mm) / mm_per_um, 3),
+      significant(2.0 * step.u_mm / mm_per_um, 2), step.step_mm > 0.0 ? "larger" : "smaller"));
 }
 
 }  // namespace trueaxis::form

@@ -243,20 +243,26 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
                   noise_mm / mm_per_um));
 }
 
+std::vector<double> leaning(const ProbeStream& face, const std::array<double, 2>& slope) {
+  std::vector<double> height_mm;
+  for (std::size_t i = 0; i < face.size(); ++i)
+    height_mm.push_back(face.position_mm[i] *
+                        (slope[0] * std::cos(face.c_rad[i]) + slope[1] * std::sin(face.c_rad[i])));
+  return height_mm;
+}
+
 void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const TakenOff> taken_off,
                  FormResult& result) {
   expect_face(stream);
   std::vector<std::array<double, 2>> at;
-  std::vector<double> height_mm = stream.reading_mm;  // along the axis
-  std::vector<std::vector<double>> columns_mm(2);
+  std::vector<double> height_mm = leaning(stream, datum.slope);  // along the axis
   for (std::size_t i = 0; i < stream.size(); ++i) {
     at.push_back({stream.position_mm[i] * std::cos(stream.c_rad[i]),
                   stream.position_mm[i] * std::sin(stream.c_rad[i])});
-    for (std::size_t k = 0; k < 2; ++k) {
-      height_mm[i] += datum.slope[k] * at[i][k];
-      columns_mm[k].push_back(datum.u[k] * at[i][k]);
-    }
+    height_mm[i] += stream.reading_mm[i];
   }
+  const std::vector<std::vector<double>> columns_mm{leaning(stream, {datum.u[0], 0.0}),
+                                                    leaning(stream, {0.0, datum.u[1]})};
   constexpr double independent[] = {1.0, 0.0, 0.0, 1.0};
   std::vector<TakenOff> uncertain(taken_off.begin(), taken_off.end());
   uncertain.push_back({columns_mm, independent});

@@ -51,6 +51,9 @@ struct Lean {
   std::array<double, 2> slope{}, u{};
 };
 
+/// What the slopes of an axis add to the heights of a face about it.
+std::vector<double> leaning(const ProbeStream& face, const std::array<double, 2>& slope);
+
 /// Flatness, and axial run-out about an axis, of a face stream (Z_M, C, X).
 void assess_face(const ProbeStream& stream, const Lean& datum, std::span<const TakenOff> taken_off,
                  FormResult& result);

@@ -19,6 +19,7 @@ constexpr Threshold much_more_likely{"odds", 1e3, "1", "surfaces of parts are no
 constexpr Threshold more_likely{"odds", 20.0, "1", "among disagreements that no part has"};
 constexpr Threshold taken_to{"left", 0.2, "of the disagreement", "by a mistake that is named"};
 constexpr Threshold as_likely{"odds", 10.0, "1", "another mistake is named too"};
+constexpr Threshold noises_apart{"factor", 2.0, "1", "one standard deviation, for one probe"};
 constexpr const char* of_one_part = "beyond it the surfaces cannot be those of one part";
 constexpr Threshold no_part_apart{"apart", 0.5, "mm", of_one_part};
 constexpr Threshold no_part_slope{"apart", 1e-3, "mm per mm between", of_one_part};
@@ -35,7 +36,21 @@ bool of_no_part(const Disagreement& d) {
 struct Held {
   std::vector<std::size_t> reference;
   std::vector<HeldAxis> axis;
+  std::vector<double> noise_mm;
   double coverage_factor = 2.0;
+
+  /// ln of how much likelier the noise of one among the others is, if its readings are scaled: one
+  /// probe has one noise.
+  double log_odds_of_noise(std::size_t at, const Mistake& mistake) const {
+    double apart = 0.0;
+    for (std::size_t i = 0; i < noise_mm.size(); ++i) {
+      if (!(noise_mm[i] > 0.0)) return 0.0;
+      if (i != at)
+        apart += std::log(noise_mm[at] / noise_mm[i]) / static_cast<double>(noise_mm.size() - 1);
+    }
+    const double right = apart + std::log(std::abs(axis[at].plane ? mistake.z : mistake.x));
+    return 0.5 * (apart * apart - right * right) / std::pow(std::log(noises_apart.value), 2);
+  }
 
   std::vector<Disagreement> pairs() const {
     std::vector<Disagreement> list;
@@ -58,6 +73,8 @@ Held held_of(const IdentifiedJob& result) {
     if (fit.status != FitStatus::converged || fit.surface == SurfaceKind::section) continue;
     held.reference.push_back(i);
     held.axis.push_back(held_axis(fit));
+    const bool diagnosed = i < result.diagnoses.size() && result.diagnoses[i];
+    held.noise_mm.push_back(diagnosed ? result.diagnoses[i]->noise.sigma_mm : fit.rms_mm);
   }
   return held;
 }
@@ -116,11 +133,14 @@ std::vector<Explanation> explanations(const Held& held, const Disagreement& wors
     for (const Mistake& mistake : mistakes()) {
       if (!applies(mistake, held.axis[at])) continue;
       Explanation e{&mistake, at, best_number(held, at, mistake), 0.0, {}};
-      e.log_odds = likelihood_with(held.axis, at, mistake, e.number, true) - as_is;
+      e.log_odds = likelihood_with(held.axis, at, mistake, e.number, true) - as_is +
+                   held.log_odds_of_noise(at, mistake);
       Held right = held;
       right.axis[at] = mended(held.axis[at], mistake, e.number);
       e.left = right.pairs().front();
-      if (size_mm(e.left) <= taken_to.value * size_mm(worst)) list.push_back(e);
+      if (size_mm(e.left) <= taken_to.value * size_mm(worst) ||
+          held.log_odds_of_noise(at, mistake) > std::log(much_more_likely.value))
+        list.push_back(e);
     }
   }
   std::ranges::stable_sort(list, std::ranges::greater{}, &Explanation::log_odds);
@@ -143,7 +163,8 @@ bool holds_on_data(const IdentifiedJob& result, const Held& held, Explanation& e
   std::optional<OpenMistake> open;
   if (e.mistake->open) open = {e.at, *e.mistake->open, e.number};
   e.log_odds = log_likelihood(right.axis, open) +
-               log_shrinkage(*e.mistake, right.axis[e.at].plane) - without_mistake(held);
+               log_shrinkage(*e.mistake, right.axis[e.at].plane) - without_mistake(held) +
+               held.log_odds_of_noise(e.at, *e.mistake);
   return true;
 }
 
@@ -219,9 +240,10 @@ Reasons find_disagreement(const CheckInput& in) {
   return reason ? Reasons{*reason} : Reasons{};
 }
 
-constexpr Threshold of_agreement[] = {
-    by_chance,     tried_from,    much_more_likely, more_likely,      taken_to,         as_likely,
-    no_part_apart, no_part_slope, no_part_tilt,     exchanged_better, exchanged_as_good};
+constexpr Threshold of_agreement[] = {by_chance,    tried_from,       much_more_likely,
+                                      more_likely,  taken_to,         as_likely,
+                                      noises_apart, no_part_apart,    no_part_slope,
+                                      no_part_tilt, exchanged_better, exchanged_as_good};
 
 }  // namespace
 

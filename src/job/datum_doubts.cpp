@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "correct/coaxiality_distribution.hpp"
 #include "job/checks.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
+#include "job/target_datum.hpp"
 
 namespace trueaxis {
 namespace {
@@ -15,32 +19,18 @@ bool is_member(const PlannedJob& result, std::size_t i) {
   });
 }
 
-/// The coaxiality of reference i with the datum is above this with 95 %.
-double least_off_mm(const PlannedJob& result, std::size_t i) {
-  const Reference reference = references_of(result)[i];
-  const TargetSurface& target = *result.job.target;
-  return CoaxialityDistribution({&reference, 1}, result.target_axis->axis.axis, target.z_start_mm,
-                                target.z_end_mm)
-      .quantile(nonconformity_risk);
-}
-
-/// How far off the datum a reference is at least, where that is more than the tolerance.
-std::optional<Reason> too_far(const PlannedJob& result, std::size_t i, ReasonCode code) {
+/// How far off an axis a reference is at least (95 %), where that is more than the tolerance.
+std::optional<Reason> too_far(const PlannedJob& result, std::size_t i, const Axis& axis,
+                              ReasonCode code, const std::string& datum) {
   if (result.fits[i].surface == SurfaceKind::plane || !result.job.coaxiality_tolerance_mm)
     return {};
-  const double least_mm = least_off_mm(result, i);
+  const Reference reference = references_of(result)[i];
+  const TargetSurface& target = *result.job.target;
+  const double least_mm =
+      CoaxialityDistribution({&reference, 1}, axis, target.z_start_mm, target.z_end_mm)
+          .quantile(nonconformity_risk);
   if (!(least_mm > *result.job.coaxiality_tolerance_mm)) return {};
-  return Reason{code, {i}, {{"off", least_mm, "mm"}}, {{"datum", result.datum->name}}};
-}
-
-/// For the references that are in the datum, or for those that are not.
-Reasons off_the_datum(const PlannedJob& result, bool members, ReasonCode code) {
-  Reasons found;
-  if (!result.datum || !result.target_axis) return found;
-  for (std::size_t i = 0; i < result.fits.size(); ++i)
-    if (is_member(result, i) == members)
-      if (const auto far = too_far(result, i, code)) found.push_back(*far);
-  return found;
+  return Reason{code, {i}, {{"off", least_mm, "mm"}}, {{"datum", datum}}};
 }
 
 Reasons find_slip(const CheckInput& in) {
@@ -52,14 +42,31 @@ Reasons find_slip(const CheckInput& in) {
   });
 }
 
+/// References of one datum share one axis; a face and the axis after it, two datums, need not be
+/// square.
 Reasons find_members_apart(const CheckInput& in) {
-  Reasons found = off_the_datum(in.job, true, ReasonCode::datum_members_apart);
-  if (found.size() > 1) found.resize(1);
-  return found;
+  if (!in.job.datum || !in.job.target_axis) return {};
+  for (const auto& names : in.job.job.datums) {
+    if (names.size() < 2) continue;
+    const Axis axis = shared_axis(in.job, names);
+    for (std::size_t i = 0; i < in.job.fits.size(); ++i)
+      if (std::ranges::count(names, in.job.job.references[i].name) > 0)
+        if (const auto far = too_far(in.job, i, axis, ReasonCode::datum_members_apart,
+                                     fmt::format("{}", fmt::join(names, "-"))))
+          return {*far};
+  }
+  return {};
 }
 
 Reasons find_off_datum(const CheckInput& in) {
-  return off_the_datum(in.job, false, ReasonCode::reference_off_datum);
+  Reasons found;
+  if (!in.job.datum || !in.job.target_axis) return found;
+  for (std::size_t i = 0; i < in.job.fits.size(); ++i)
+    if (!is_member(in.job, i))
+      if (const auto far = too_far(in.job, i, in.job.target_axis->axis.axis,
+                                   ReasonCode::reference_off_datum, in.job.datum->name))
+        found.push_back(*far);
+  return found;
 }
 
 constexpr Threshold beyond_tolerance[] = {

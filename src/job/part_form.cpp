@@ -90,7 +90,7 @@ std::string first_of(const InputError& error) { return error.diagnostics().front
 void assess(Question& question, const FormTask& task, PartForm& out) {
   const ProbeStream& stream = question.part().stream();
   FormOptions& options = question.options();
-  options.filter = task.filter;
+  options.filter = stream.kind == StreamKind::face ? ProfileFilter::none : task.filter;
   options.all_references = false;
   if (!task.judges()) options.trials = std::min(options.trials, trials_that_show);
   if (stream.kind == StreamKind::lateral) {

@@ -97,6 +97,29 @@ void hold_to_face(std::size_t face, Common& common) {
   common.share[face].bottomRightCorner<2, 2>().setIdentity();
 }
 
+void keep(const std::vector<Matrix4>& shares, TargetDatum& out) {
+  for (const Matrix4& share : shares) Eigen::Map<Matrix4>(out.shares.emplace_back().data()) = share;
+}
+
+/// The axis of the references by their shares.
+Reference combined(const TargetDatum& datum, const std::vector<Reference>& references) {
+  Reference one{datum.name, {}, 1.0, 0.0};
+  Eigen::Vector4d axis = Eigen::Vector4d::Zero();
+  Matrix4 covariance = Matrix4::Zero();
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    const Eigen::Map<const Matrix4> share(datum.shares[i].data());
+    if (share.isZero(0.0)) continue;
+    const Axis& of = references[i].axis.axis;
+    axis += share * Eigen::Vector4d(of.x_mm, of.y_mm, of.slope_x, of.slope_y);
+    covariance +=
+        share * Eigen::Map<const Matrix4>(references[i].axis.covariance.data()) * share.transpose();
+    one.freedom = std::min(one.freedom, references[i].freedom);
+  }
+  one.axis.axis = {axis[0], axis[1], axis[2], axis[3], datum.z_ref_mm};
+  Eigen::Map<Matrix4>(one.axis.covariance.data()) = covariance;
+  return one;
+}
+
 }  // namespace
 
 std::optional<TargetDatum> target_datum(const PlannedJob& result) {
@@ -120,31 +143,24 @@ std::optional<TargetDatum> target_datum(const PlannedJob& result) {
       shares[face].bottomRightCorner<2, 2>().setIdentity();
     }
   }
-  for (const Matrix4& share : shares) Eigen::Map<Matrix4>(out.shares.emplace_back().data()) = share;
+  keep(shares, out);
   return out;
 }
 
 std::vector<Reference> judged(const PlannedJob& result, const std::vector<Reference>& references) {
   if (!result.datum) return references;
-  const TargetDatum& datum = *result.datum;
-  Reference one{datum.name, {}, 1.0, 0.0};
-  Eigen::Vector4d axis = Eigen::Vector4d::Zero();
-  Matrix4 covariance = Matrix4::Zero();
-  for (std::size_t i = 0; i < references.size(); ++i) {
-    const Eigen::Map<const Matrix4> share(datum.shares[i].data());
-    if (share.isZero(0.0)) continue;
-    const Axis& of = references[i].axis.axis;
-    axis += share * Eigen::Vector4d(of.x_mm, of.y_mm, of.slope_x, of.slope_y);
-    covariance +=
-        share * Eigen::Map<const Matrix4>(references[i].axis.covariance.data()) * share.transpose();
-    one.freedom = std::min(one.freedom, references[i].freedom);
-  }
+  Reference one = combined(*result.datum, references);
   const TargetSurface& target = *result.job.target;
   if (target.kind == TargetKind::face)
     one.face_radius_mm = std::max(target.radius_start_mm, target.radius_end_mm);
-  one.axis.axis = {axis[0], axis[1], axis[2], axis[3], datum.z_ref_mm};
-  Eigen::Map<Matrix4>(one.axis.covariance.data()) = covariance;
   return {one};
+}
+
+Axis shared_axis(const PlannedJob& result, const std::vector<std::string>& names) {
+  TargetDatum datum;
+  datum.z_ref_mm = result.datum->z_ref_mm;
+  keep(common_axis(result, names, datum.z_ref_mm).share, datum);
+  return combined(datum, references_of(result)).axis.axis;
 }
 
 }  // namespace trueaxis

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "trueaxis/job.hpp"
@@ -17,5 +18,8 @@ std::optional<TargetDatum> target_datum(const PlannedJob& job);
 /// What the target axis is solved for and a tolerance is compared with: the datum where the job
 /// names one, else the references themselves.
 std::vector<Reference> judged(const PlannedJob& job, const std::vector<Reference>& references);
+
+/// The one axis of the references of a common datum, whatever the job holds it to (Eq. 304).
+Axis shared_axis(const PlannedJob& job, const std::vector<std::string>& names);
 
 }  // namespace trueaxis

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.hpp"
 #include "math/linear_algebra.hpp"
 #include "measure/step_model.hpp"
 #include "trueaxis/units.hpp"
@@ -74,8 +75,8 @@ std::optional<CentreStep> find_centre_step(const TurnCentres& centres, double by
 }
 
 std::string moved_text(const CentreStep& step) {
-  std::string text = fmt::format("the centre of the turns moves by {:.3g} µm about data row {}: ",
-                                 step.size_mm / mm_per_um, step.reading + 1);
+  std::string text = fmt::format("the centre of the turns moves by {} µm about data row {}: ",
+                                 significant(step.size_mm / mm_per_um, 3), step.reading + 1);
   if (!step.may_be_delay)
     return text +
            "the part slipped there, C lost its place, or two recordings were joined. Give each "

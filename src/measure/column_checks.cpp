@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/angle.hpp"
+#include "base/number.hpp"
 #include "base/stop.hpp"
 #include "math/statistics.hpp"
 #include "measure/column_order.hpp"
@@ -153,9 +154,10 @@ std::string repeated_rows(const ProbeStream& stream) {
   const double usual = median(changes), least = *std::ranges::min_element(changes);
   if (usual < many_steps * least) return "";
   return fmt::format(
-      "X_M stays the same in {:.0f} % of the rows while C turns, and then changes by {:.2g} µm: "
+      "X_M stays the same in {:.0f} % of the rows while C turns, and then changes by {} µm: "
       "the probe is read more slowly than C. Remove the rows in which it was not read anew",
-      100.0 * static_cast<double>(held) / static_cast<double>(stream.size()), usual / mm_per_um);
+      100.0 * static_cast<double>(held) / static_cast<double>(stream.size()),
+      significant(usual / mm_per_um, 2));
 }
 
 std::string counts_rows(const ProbeStream& stream) {

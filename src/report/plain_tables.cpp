@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/number.hpp"
 #include "format/html.hpp"
 #include "report/page.hpp"
 #include "trueaxis/units.hpp"
@@ -52,7 +53,7 @@ std::string quantity_text(const Json& json) {
   const std::string unit = json.contains("unit") ? scalar_text(json["unit"]) : "";
   const std::string behind = unit.empty() || unit == "1" ? "" : " " + unit;
   text += behind;
-  if (u > 0.0) text += fmt::format(" (u {:.2g}{})", u, behind);
+  if (u > 0.0) text += fmt::format(" (u {}{})", significant(u, 2), behind);
   for (const auto& [key, more] : json.items())
     if (key != "value" && key != "u" && key != "unit" && more.is_primitive() && !more.is_null())
       text += ", " + words(key) + " " + scalar_text(more);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tolerances of form in a job: lines, exit code, result.json, report.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "support/command_fixture.hpp"
@@ -81,6 +83,39 @@ TEST_F(FormInAJob, TooFewReadingsForTheFilterAreNotJudged) {
       contains(done.out, "form   roundness NOT JUDGED: 50 UPR needs 350 readings per revolution"))
       << done.out;
   EXPECT_EQ(form().at("judgements").at(0).at("conformity"), "not_judged");
+}
+
+/// The face leans by 5e-4 to the shaft; its last turn is at 39 mm on one side, at 39.5 mm on the
+/// other. A drift of the shaft's readings is not of its axis.
+TEST_F(FormInAJob, RunOutOfAFaceAboutAnotherReference) {
+  file("shaft.toml",
+       "seed = 2\n[part]\nkind = \"cylinder\"\nradius_mm = 20\nl = 4e-4\n[noise]\nsigma_um = 0.2\n"
+       "[[effect]]\nid = \"thermal.drift\"\namplitude_um = 6\ntime_constant_s = 30\n"
+       "[[pass]]\nz_start_mm = 0\nz_end_mm = 40\nfeed_mm_per_rev = 1\n"
+       "readings_per_revolution = 60\nspeed_rpm = 60\n");
+  file("face.toml",
+       "seed = 3\n[part]\nkind = \"face\"\nd_mm = -1\nl = -1e-4\n[noise]\nsigma_um = 0.2\n"
+       "[[pass]]\nx_start_mm = 20\nx_end_mm = 40\nfeed_mm_per_rev = 1\n"
+       "readings_per_revolution = 60\nspeed_rpm = 60\n");
+  for (const char* name : {"shaft", "face"})
+    ASSERT_EQ(command(fmt::format("simulate {0}.toml -o {0}.csv", name)).exit_code, 0);
+  const auto judged = [&](const std::string& datum) {
+    file("job.toml",
+         "[[reference]]\nname = \"A\"\nstream = \"shaft.csv\"\nsurface = \"cylinder\"\n"
+         "[[reference]]\nname = \"F\"\nstream = \"face.csv\"\nsurface = \"plane\"\n"
+         "runout_tolerance_um = 30\nrunout_datum = \"" +
+             datum + "\"\n");
+    const CommandStreams done = command("run job.toml -o out --force");
+    EXPECT_TRUE(contains(done.out, "F: axial run-out")) << done.out << done.err;
+    return result("out/result.json").at("references").at(1).at("form").at("judgements").at(0);
+  };
+  for (const auto& [datum, true_mm] : {std::pair{"A", 0.03925}, {"spindle axis", 0.00785}}) {
+    const json one = judged(datum);
+    const double u = one.at("at_most").at("u").get<double>();
+    EXPECT_LT(u, 2e-3) << datum;
+    EXPECT_NEAR(one.at("at_most").at("value").get<double>(), true_mm, 2.0 * u) << datum;
+    EXPECT_EQ(one.at("conformity"), true_mm > 0.03 ? "not_met" : "met") << datum;
+  }
 }
 
 TEST_F(FormInAJob, WithoutAToleranceTheValuesAreSaidAndNothingElseChanges) {

@@ -171,6 +171,24 @@ TEST_F(Watch, AFileEndsWhenItNoLongerGrows) {
   EXPECT_EQ(read_text(folder_ / "out/result.json"), read_text(folder_ / "batch/result.json"));
 }
 
+/// Another part, 80 µm elsewhere, in a longer file of the same name.
+TEST_F(Watch, AFileThatIsOverwrittenIsANewOne) {
+  write_stream(20, [](double) { return Place{x0_mm + 0.08, y0_mm, false}; });
+  file("next.csv", read_text(folder_ / "part.csv"));
+  write_stream(10, [](double) { return Place{x0_mm, y0_mm, false}; });
+  const auto done =
+      shell("cd " + shell_word(folder_) + " && (sleep 1; cat next.csv > part.csv) & " + "cd " +
+            shell_word(folder_) + " && " + shell_word(places::command()) +
+            " watch part.csv --surface cylinder --idle-s 2 --json-lines -o out "
+            "> lines.txt 2> said.txt; code=$?; wait; exit $code");
+  const std::string said = read_text(folder_ / "said.txt");
+  EXPECT_EQ(done.exit_code, 0) << said;
+  EXPECT_TRUE(contains(said, "new    part.csv was overwritten")) << said;
+  EXPECT_FALSE(contains(said, "STOP")) << said;
+  EXPECT_TRUE(contains(read_text(folder_ / "lines.txt"), "\"readings\":2000,"));
+  EXPECT_TRUE(contains(read_text(folder_ / "lines.txt"), "\"readings\":4000,"));
+}
+
 TEST_F(Watch, ExcludesALastLineThatIsTorn) {
   write_stream(10, [](double) { return Place{x0_mm, y0_mm, false}; });
   std::string text = read_text(folder_ / "part.csv");

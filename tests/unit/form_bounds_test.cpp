@@ -63,6 +63,9 @@ TEST(FormBounds, ABoundDoesNotShrinkWithK) {
     EXPECT_EQ(layout::size_plus_minus(little.estimate, k, 1e3, "µm"),
               "below 3.5 µm (95 % confidence)");
     EXPECT_EQ(form_value_text(little, k, 1e3, "µm"), "below 3.5 µm (95 % confidence)");
+    // Not 1.1e+02, and no less than the 110.4 µm that it is.
+    EXPECT_EQ(layout::size_plus_minus({0.05, 0.0302, "mm", ""}, 2.0, 1e3, "µm"),
+              "below 111 µm (95 % confidence)");
   }
   EXPECT_DOUBLE_EQ(most_of(little, 3.0), 4.5e-3);
   const FormValue much{"RONt", "MZCI", {5e-3, 1e-3, "mm", ""}};

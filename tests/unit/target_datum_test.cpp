@@ -214,6 +214,27 @@ TEST(TargetDatum, SeatsThatShareNoAxisAreNoDatum) {
   EXPECT_TRUE(says(alone, "off the datum A")) << verdict_line(alone);
 }
 
+/// A face and the axis after it are two datums, and need not be square: 6e-4 over the cut's 54 mm
+/// from the seat's middle is 69 µm in diameter. Two seats after a face share one axis all the same.
+TEST(TargetDatum, AFaceNeedNotBeSquareToTheAxisAfterIt) {
+  const Stands at{0.03, -0.02, 4e-4, -2e-4}, elsewhere{0.12, 0.08, -6e-4, 2e-4};
+  const ProbeStream a = seat(20.0, 0.0, at, 5), face = shoulder(-1e-4, 3e-4);
+  Job job = job_of({{"A", SurfaceKind::cylinder}, {"C", SurfaceKind::plane}});
+  job.coaxiality_tolerance_mm = 0.03;
+  job.datums = {{"C"}, {"A"}};
+  const JobResult one = run_job(job, {a, face});
+  EXPECT_EQ(one.verdict.decision, Decision::go) << verdict_line(one);
+  job = job_of(
+      {{"A", SurfaceKind::cylinder}, {"B", SurfaceKind::cylinder}, {"C", SurfaceKind::plane}});
+  job.coaxiality_tolerance_mm = 0.05;
+  job.datums = {{"C"}, {"A", "B"}};
+  const Stands near{0.04, -0.02, 3e-4, -1e-4};
+  const JobResult two = run_job(job, {a, seat(24.0, 100.0, near, 6), face});
+  EXPECT_EQ(two.verdict.decision, Decision::go) << verdict_line(two);
+  const JobResult apart = run_job(job, {a, seat(24.0, 100.0, elsewhere, 6), face});
+  EXPECT_TRUE(says(apart, "off the datum A-B")) << verdict_line(apart);
+}
+
 /// A slip while B is probed leaves A where the part was before.
 TEST(TargetDatum, ASlipLeavesTheOtherReferencesBehind) {
   const Stands at{0.02, -0.01, 0.0, 0.0};

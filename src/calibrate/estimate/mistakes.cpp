@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "base/number.hpp"
 #include "calibrate/estimate/column_mistakes.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "math/golden_section.hpp"
@@ -88,9 +89,9 @@ std::string read_out_mistake(std::span<const MachineMeasurement> data, const Cal
                          letter_of(one.axis), largest / unit, name, unit_mistake(file));
     const double noise = file.noise_mm.value_or(0.0);
     if (one.rms_after <= std::max(far_too_small * noise, limits.left)) continue;
-    const std::string said =
-        noise > 0.0 ? fmt::format(", and their stated noise is {:.2g} {}", noise / unit, name)
-                    : std::string();
+    const std::string said = noise > 0.0 ? fmt::format(", and their stated noise is {} {}",
+                                                       significant(noise / unit, 2), name)
+                                         : std::string();
     return fmt::format("{}: the fit leaves residuals of {:.3g} {} in the read-out of {}{}: {}",
                        file.source, one.rms_after / unit, name, letter_of(one.axis), said,
                        unit_mistake(file));
@@ -269,9 +270,10 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
   if (found.equations == 0 || found.balls.empty()) return "";  // read-outs alone
   if (found.converged && scatters_too_little(found))
     return fmt::format(
-        "the readings scatter by {:.2g} µm, but their stated noise is {:.2g} µm: check the unit of "
+        "the readings scatter by {} µm, but their stated noise is {} µm: check the unit of "
         "the deviations in the header, and `# noise`",
-        found.rms_after_mm / mm_per_um, found.stated_noise_mm / mm_per_um);
+        significant(found.rms_after_mm / mm_per_um, 2),
+        significant(found.stated_noise_mm / mm_per_um, 2));
   const double as_read_mm = found.rms_parameters_mm;
   const bool wrong = !found.converged || !implausible(found, options).empty();
   const double fine_mm = found.stated_noise_mm > 0.0 ? well_fitted * found.stated_noise_mm
@@ -307,7 +309,9 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
                 : fmt::format("even with every error that a machine can have, the residuals are "
                               "{:.3g} µm",
                               left_by_all_mm / mm_per_um)) +
-         (noise_um > 0.0 ? fmt::format(", and their stated noise is {:.2g} µm", noise_um) : "") +
+         (noise_um > 0.0
+              ? fmt::format(", and their stated noise is {} µm", significant(noise_um, 2))
+              : "") +
          ", and no usual mistake in the columns explains it: check the units of deviations and "
          "positions in the header. Check that the machine file, the zeros of the axes, the tool "
          "length and the columns belong to the measurement, and that nothing moved";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "base/number.hpp"
 #include "calibrate/files/calibration_files.hpp"
 #include "format/text_layout.hpp"
 
@@ -31,8 +32,8 @@ std::string components_text(const Calibration& c) {
   std::size_t count = 0;
   for (const CalibratedComponent& one : c.components)
     if (one.shown) {
-      shown += fmt::format("{}{} {:.2g} {}", count++ == 0 ? "" : ", ", one.name,
-                           small_factor(one.rms) * one.rms.value, unit_of(one.rms));
+      shown += fmt::format("{}{} {} {}", count++ == 0 ? "" : ", ", one.name,
+                           significant(small_factor(one.rms) * one.rms.value, 2), unit_of(one.rms));
     }
   std::string text =
       layout::wrapped("", fmt::format("U includes {} component errors of typical size, and for "
@@ -54,9 +55,10 @@ std::string read_out_text(const AxisReadOut& one, double k) {
                                  factor * one.rms_after, unit, factor * one.noise, unit);
   if (one.reversal)
     text += fmt::format(
-        "  reversal value {:.3g} ± {:.2g} {}: it is not in the errors file. Correct it in the "
+        "  reversal value {} ± {} {}: it is not in the errors file. Correct it in the "
         "control\n",
-        factor * one.reversal->value, k * factor * one.reversal->u, unit);
+        significant(factor * one.reversal->value, 3), significant(k * factor * one.reversal->u, 2),
+        unit);
   if (one.period > 0.0)
     text += fmt::format("  periodic in {:.6g} {}:", rotary ? one.period / rad_per_deg : one.period,
                         rotary ? "deg" : "mm");

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/counted.hpp"
+#include "base/number.hpp"
 #include "format/text_layout.hpp"
 
 namespace trueaxis {
@@ -78,7 +79,8 @@ std::string beyond_noise(const Calibration& c) {
   std::vector<std::string> found;
   const auto state = [&](const std::string& what, double noise, double stated, double freedom) {
     if (exceeds(noise, stated, freedom))
-      found.push_back(fmt::format("{}{:.2g} times the stated noise", what, noise / stated));
+      found.push_back(
+          fmt::format("{}{} times the stated noise", what, significant(noise / stated, 2)));
   };
   state("", c.noise_mm, c.stated_noise_mm,
         static_cast<double>(c.equations) - static_cast<double>(c.unknowns));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/counted.hpp"
+#include "base/number.hpp"
 #include "compensate/files/compensation_files.hpp"
 #include "format/reason_words.hpp"
 #include "format/text_layout.hpp"
@@ -49,7 +50,7 @@ std::string causes_screen(const ProgramCompensation& result) {
 /// "0.118°"; in words if no axis resolves it.
 std::string degrees(double angle_rad) {
   const double deg = angle_rad / rad_per_deg;
-  return deg < 1e-4 ? "less than 0.0001°" : fmt::format("{:.2g}°", deg);
+  return deg < 1e-4 ? "less than 0.0001°" : significant(deg, 2) + "°";
 }
 
 /// Blocks near a pole.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/never.hpp"
+#include "base/number.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/scan_list.hpp"
 #include "math/statistics.hpp"
@@ -45,7 +46,7 @@ double size_of(const Effect& effect, const LinearParameter& linear) {
 
 std::string percent_left(double share) {
   const double least = 1e-4;
-  return share < least ? "less than 0.01 %" : fmt::format("{:.2g} %", 100.0 * share);
+  return share < least ? "less than 0.01 %" : significant(100.0 * share, 2) + " %";
 }
 
 /// An effect at its typical shape; and in a form with limits of its own.

@@ -8,6 +8,7 @@
 
 #include "base/angle.hpp"
 #include "base/counted.hpp"
+#include "base/number.hpp"
 #include "diagnose/search/causes.hpp"
 #include "fit/uncertainty.hpp"
 #include "math/autoregression.hpp"
@@ -218,13 +219,13 @@ QualityCheck stated_noise(const NoiseReport& noise, double redundancy) {
     text +=
         shown > stated
             ? fmt::format(
-                  ": TrueAxis computes u from the data, {:.2g} times the stated noise; the "
+                  ": TrueAxis computes u from the data, {} times the stated noise; the "
                   "readings contain more than the sensor's noise, or the stated noise is too small",
-                  shown / stated)
+                  significant(shown / stated, 2))
             : fmt::format(
                   ": u of the causes comes from the data, but u of the ideal fit from the stated "
-                  "noise; if that is wrong (a unit?), it is up to {:.2g} times too large",
-                  stated / shown);
+                  "noise; if that is wrong (a unit?), it is up to {} times too large",
+                  significant(stated / shown, 2));
   }
   return result(DataCheck::stated_noise, found, std::move(text));
 }

@@ -96,9 +96,9 @@ std::string unseen_screen(const Diagnosis& d) {
     const Estimate shown = at_edge({size, 0.0, n.detectable_unit, ""});
     const double digit = digit_worth(size, 2);
     sizes.push_back((n.detectable_unit == "mm" ? um(digit * std::round(size / digit))
-                     : milli                   ? fmt::format("{:.2g} ms", 1e3 * size)
-                     : shown.unit == "1"       ? fmt::format("{:.2g}", size)
-                                         : fmt::format("{:.2g} {}", shown.value, shown.unit)) +
+                     : milli                   ? significant(1e3 * size, 2) + " ms"
+                     : shown.unit == "1"       ? significant(size, 2)
+                                               : significant(shown.value, 2) + " " + shown.unit) +
                     " of " + (effect ? plain_name(*effect) : n.effect));
   }
   return sizes.empty()

@@ -30,7 +30,7 @@ constexpr std::size_t per_column = least_beside_step / 2;  // readings next to a
 constexpr std::size_t few = 16;  // readings per column: with so few on a side two are ignored
 constexpr double kept = 0.25;    // share of the gain that is there without them: of eight (6/8)²
 constexpr double lasting[] = {1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0};  // of all time
-constexpr Index most_dates = 4096;  // tried at first; of more readings, those about the best then
+constexpr Index most_dates = 4096;  // tried at first, then those about the best
 constexpr double as_likely = 12.0;  // σ² of the sum of squares: dates among which sizes decide
 
 /// Whether a row is one of the noise model's: it and those that predict it are there.

@@ -33,10 +33,10 @@ std::string cell(const FormValue* one, double k) {
   const double scale = slope ? rad_per_deg / mm_per_um : 1e3;
   if (one->estimate.determined() && scale * k * one->estimate.u < least_shown)
     return fmt::format("{:.4f} ± < {:g}", scale * one->estimate.value, least_shown);
-  if (one->unresolved) return fmt::format("< {:.2g}", scale * one->estimate.interval->back());
+  if (one->unresolved) return "< " + layout::bound(scale * one->estimate.interval->back());
   const double within = bound_factor(k) * one->estimate.u;
   if (one->estimate.determined() && one->estimate.value <= within)
-    return fmt::format("< {:.2g}", scale * (one->estimate.value + within));
+    return "< " + layout::bound(scale * (one->estimate.value + within));
   return layout::plus_minus(one->estimate, k, scale, "");
 }
 
@@ -198,8 +198,7 @@ std::string harmonics_table(const FormResult& result) {
 
 std::string form_value_text(const FormValue& one, double k, double scale, const std::string& unit) {
   if (!one.unresolved) return layout::size_plus_minus(one.estimate, k, scale, unit);
-  return fmt::format("below {:.2g} {} (95 % confidence)", scale * one.estimate.interval->back(),
-                     unit);
+  return layout::below(scale * one.estimate.interval->back(), unit);
 }
 
 std::string swallowed_words(const FormResult& result) {

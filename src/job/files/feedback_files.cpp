@@ -345,13 +345,13 @@ std::string feedback_screen(const JobResult& result) {
   const std::optional<double> least_mm = coaxiality_of_cut_not_met_mm(result);
   if (f.seen)
     text += fmt::format(
-        "cut    {}s probed again, its axis is {:.2g} ± {:.2g} µm off the target axis\n"
+        "cut    {}s probed again, its axis is {} ± {} µm off the target axis\n"
         "loop   Learned from {}, for the next table: {}\n",
         least_mm ? fmt::format("NOT MET, coaxiality at least {} µm: a",
                                significant(*least_mm / mm_per_um, 2))
                  : "A",
-        f.off_mm / mm_per_um, f.U_off_mm / mm_per_um, counted(f.after.parts.size(), "part"),
-        percent_and_degrees(response_of(f.after, f.prior)));
+        significant(f.off_mm / mm_per_um, 2), significant(f.U_off_mm / mm_per_um, 2),
+        counted(f.after.parts.size(), "part"), percent_and_degrees(response_of(f.after, f.prior)));
   return text;
 }
 

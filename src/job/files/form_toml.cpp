@@ -68,10 +68,6 @@ void check_runout_datums(TomlTable root, const Job& job) {
       complain("is the reference itself: name another one or \"spindle axis\"");
     else if (!is_round(named->fit.surface))
       complain("is a face, which has no axis: name a cone or cylinder, or \"spindle axis\"");
-    else if (reference.fit.surface == SurfaceKind::plane)
-      complain(
-          "is not for a face, whose run-out in a job is about the \"spindle axis\": use "
-          "`trueaxis form` with --datum");
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/angle.hpp"
+#include "base/number.hpp"
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
@@ -208,11 +209,10 @@ void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& too
   }
   const double rows = std::abs(travel) / tool.feed_mm_per_rev * tool.rows_per_revolution;
   if (rows <= most_rows || std::isnan(rows)) return;
-  cut.complain(
-      "feed_mm_per_rev",
-      fmt::format("makes a table of {:.2g} rows, more than {:.2g}: raise the feed, shorten "
-                  "the cut or lower rows_per_revolution",
-                  rows, most_rows));
+  cut.complain("feed_mm_per_rev",
+               fmt::format("makes a table of {} rows, more than {}: raise the feed, shorten "
+                           "the cut or lower rows_per_revolution",
+                           significant(rows, 2), significant(most_rows, 2)));
 }
 
 Actuator read_actuator(TomlTable table) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/number.hpp"
 #include "format/json.hpp"
 #include "trueaxis/units.hpp"
 
@@ -45,10 +46,10 @@ std::string live_alarm(const LiveState& state) {
   if (state.deaf)
     return "the probe is deaf: its readings do not follow the part. Stop, and look at the probe";
   if (state.moved)
-    return fmt::format("the part slipped by about {:.2g} µm{}", um(state.moved->size_mm),
-                       state.moved->may_be_delay
-                           ? ", or X is late and the speed changed: stop, and look at both"
-                           : ": stop, and clamp it again");
+    return fmt::format(
+        "the part slipped by about {} µm{}", significant(um(state.moved->size_mm), 2),
+        state.moved->may_be_delay ? ", or X is late and the speed changed: stop, and look at both"
+                                  : ": stop, and clamp it again");
   return "";
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "base/number.hpp"
 #include "calibrate/files/machine_screen.hpp"
 #include "compensate/files/compensation_files.hpp"
 #include "format/reason_words.hpp"
@@ -21,13 +22,14 @@ std::string machine_job_screen(const MachineJobResult& result) {
     const int decimals = decimals_of(U_um, 0);
     const double off_um = verdict.path_after_mm() / mm_per_um;
     const double left_um = verdict.not_corrected_mm / mm_per_um;
-    const std::string left =
-        left_um > 0.0 ? fmt::format(", besides {:.2g} µm that no program corrects", left_um) : "";
+    const std::string left = left_um > 0.0 ? fmt::format(", besides {} µm that no program corrects",
+                                                         significant(left_um, 2))
+                                           : "";
     if (off_um <= U_um)
       text += fmt::format(
-          "tip    off by less than {:.2g} µm with the new program (95 % confidence; the place of "
+          "tip    off by less than {} µm with the new program (95 % confidence; the place of "
           "the part excluded){}\n",
-          off_um + U_um, left);
+          layout::bound(off_um + U_um), left);
     else
       text += fmt::format(
           "tip    off by {:.{}f} ± {:.{}f} µm with the new program (U, k = 2; the place of the "
