@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "trueaxis/correction.hpp"
 #include "trueaxis/error.hpp"
@@ -23,7 +24,7 @@ struct LogResponse {
 
 /// Of a real system: the points and their images at negative frequencies, where the gain is the
 /// same and the phase the opposite.
-std::vector<LogResponse> both_sides(const std::vector<ResponsePoint>& points) {
+std::vector<LogResponse> both_sides(std::span<const ResponsePoint> points) {
   std::vector<LogResponse> above;
   double phase = 0.0;
   for (const ResponsePoint& point : points) {
@@ -80,10 +81,15 @@ Complex by_straight_lines(const std::vector<ResponsePoint>& points, double frequ
   return std::polar(low.gain * std::pow(high.gain / low.gain, share), phase);
 }
 
-/// Measured response at a frequency: log gain and unwrapped phase as cubics between points.
+/// Measured response at a frequency: log gain and unwrapped phase as cubics between points, of
+/// which those next to it count.
 Complex interpolated(const std::vector<ResponsePoint>& points, double frequency_hz) {
-  const std::vector<LogResponse> at = both_sides(points);
-  if (at.size() < 3 || frequency_hz >= at.back().frequency_hz)
+  const auto next =
+      std::ranges::upper_bound(points, frequency_hz, {}, &ResponsePoint::frequency_hz);
+  const auto first = next - std::min<std::ptrdiff_t>(3, next - points.begin());
+  const auto last = next + std::min<std::ptrdiff_t>(3, points.end() - next);
+  const std::vector<LogResponse> at = both_sides({first, last});
+  if (at.size() < 3 || frequency_hz >= points.back().frequency_hz)
     return by_straight_lines(points, frequency_hz);
   const auto above = std::ranges::upper_bound(at, frequency_hz, {}, &LogResponse::frequency_hz);
   const auto i = static_cast<std::size_t>(above - at.begin()) - 1;

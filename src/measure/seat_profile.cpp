@@ -174,9 +174,10 @@ RobustCircle robust_circle(const ProbeStream& stream, const std::vector<std::siz
   RobustCircle out;
   constexpr int rounds = 12, rounds_of_huber = 6;
   for (int round = 0; round < rounds; ++round) {
-    const Eigen::Matrix3d normal = basis.transpose() * weight.asDiagonal() * basis;
-    const Eigen::Vector3d found = linear::solve_normal(
-        normal, Eigen::Vector3d(basis.transpose() * weight.cwiseProduct(reading)));
+    const Eigen::MatrixX3d weighted = weight.asDiagonal() * basis;
+    const Eigen::Matrix3d normal = weighted.transpose().lazyProduct(basis);
+    const Eigen::Vector3d right = weighted.transpose().lazyProduct(reading);
+    const Eigen::Vector3d found = linear::solve_normal(normal, right);
     out.radius_mm = found[0], out.cos_mm = found[1], out.sin_mm = found[2];
     const Eigen::VectorXd off = reading - basis * found;
     out.scatter_mm =

@@ -30,7 +30,6 @@ constexpr KindShare shares[] = {{Kind::null, 72},  {Kind::one, 64},     {Kind::t
 
 StudyOptions options_of(const std::string& folder) {
   StudyOptions options;
-  options.command = places::command();
   options.scratch = std::filesystem::path(places::scratch()) / "blind" / folder;
   options.jobs = 1;  // ctest runs the tests side by side
   options.progress = [](std::size_t, const Result& result) {
@@ -116,6 +115,7 @@ TEST(BlindAdvice, TheRecommendedMeasurementResolves) {
   std::cout << "seed " << selection.seed << '\n';
   StudyOptions options = options_of("advice");
   options.follow_advice = true;
+  options.command = places::command();  // all others ask the library
   const Tally all = tally(run_study(select(selection), options));
   std::cout << text_of(all);
   EXPECT_GE(all.advice_taken, 8u);

@@ -39,7 +39,8 @@ struct Sealed {
 void write_sealed(const BlindCase& blind_case, const std::filesystem::path& folder);
 Sealed open_truth(const std::filesystem::path& folder);
 
-/// Runs `command diagnose FOLDER/stream.csv --surface …` as a process of its own.
+/// Runs `command diagnose FOLDER/stream.csv --surface …` as a process of its own; without a command
+/// the same diagnosis here, which saves the form and the start of a process.
 Answer run_command(const std::string& command, const std::filesystem::path& folder,
                    SurfaceId surface);
 

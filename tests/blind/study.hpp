@@ -24,7 +24,7 @@ struct Result {
 };
 
 struct StudyOptions {
-  std::string command;            ///< the trueaxis command
+  std::string command;            ///< the trueaxis command; empty: the library
   std::filesystem::path scratch;  ///< streams and truths, case by case
   bool keep = false;              ///< leave them there
   bool follow_advice = false;     ///< take the next measurement of every case with one cause

@@ -243,8 +243,8 @@ TEST(MachineDiagnosisCommand, WritesAPage) {
                 read_json(json_file).at("program").at("by_effect"));
     }
     if (!example::can_open_pages()) continue;
-    const auto opinion =
-        example::open_page(text, program.empty() ? "machine_diagnosis" : "machine_diagnosis_part");
+    const auto opinion = program.empty() ? example::open_page(text, "machine_diagnosis", "--wide")
+                                         : example::open_page(text, "machine_diagnosis_part");
     EXPECT_TRUE(opinion.sound) << opinion.log;
   }
   const auto same = trueaxis_command(zxacy + " --report " + page + " --json " + page);

@@ -42,9 +42,11 @@ double phone_screens(const Opinion& opinion) {
              : NAN;
 }
 
-void expect_sound(const std::string& page, const std::string& name) {
+/// @param option "--wide": the page of the diagnosis has its parts, and is looked at on a phone
+void expect_sound(const std::string& page, const std::string& name,
+                  const std::string& option = "") {
   if (!example::can_open_pages()) return;
-  const Opinion opinion = open_page(page, name);
+  const Opinion opinion = open_page(page, name, option);
   EXPECT_TRUE(opinion.sound) << opinion.log;
 }
 
@@ -73,7 +75,7 @@ TEST_F(ReportCommand, FitAndDiagnoseWriteThePageOfAJob) {
   EXPECT_EQ(diagnosis["verdict"]["outcome"], "effects");
   EXPECT_TRUE(diagnosis["references"][0]["diagnosis"]["simulation"]["by_lathe"]);
   EXPECT_NE(diagnosis["next"].dump().find("To tell the causes apart"), std::string::npos);
-  expect_sound(page("fit.html"), "fit_command");
+  expect_sound(page("fit.html"), "fit_command", "--wide");
   expect_sound(page("diagnosis.html"), "diagnose_command");
   // An earlier page is replaced, and it is the same bytes; nothing but it goes to standard output.
   const std::string before = page("fit.html");
@@ -132,7 +134,7 @@ TEST_F(ReportCommand, ATraceGetsAPageOfItsRoundness) {
     EXPECT_NEAR(roundness["orders"][1]["amplitude_um"], 2.0, 0.0061);
     EXPECT_NEAR(roundness["orders"][0]["amplitude_um"], 0.0,
                 0.0061);  // no oval of the eccentricity
-    expect_sound(text, "trace_" + verb);
+    expect_sound(text, "trace_" + verb, verb == "fit" ? "--wide" : "");
   }
 }
 

@@ -2,7 +2,8 @@
 // Opens reports in headless Chromium as a reader would, wide, on a phone, in the dark and on paper, and lists what is wrong:
 //   node report_page.mjs REPORT.html [--folded | --wide] [FOLDER_FOR_SCREENSHOTS]
 //   node report_page.mjs --each     reads such words, one report a line as a JSON array; "--" ends what is said of each
-// --folded opens it wide and prints its banner, no more; --wide leaves out the phone.
+// --folded opens it wide and prints its banner, no more; --wide leaves out the phone, and it gets dark while the page is open.
+// Else the wide one is dark from the start and prints, and the phone is light: every page is drawn once less.
 // Pictures of whole pages are half of the work, so that they are made when they are asked for.
 import {existsSync, mkdirSync} from 'node:fs';
 import {join, resolve} from 'node:path';
@@ -136,7 +137,7 @@ function inspectContrast() {
 
 const paperIsDark = () => { const [r, g, b] = getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number); return r + g + b < 200; };
 
-/** When it gets dark: dark paper that all can be read on; then printed: light, unfolded and nothing beyond the paper's width. */
+/** In the dark: dark paper that all can be read on; then printed: light, unfolded and nothing beyond the paper's width. */
 async function lookDark(page, folder) {
   const problems = [];
   page.on('pageerror', (error) => problems.push(`dark: page error: ${error.message}`));
@@ -171,8 +172,8 @@ const inspectSmall = () => [...document.querySelectorAll('table')].filter((one) 
 const inspectClipped = () => [...document.querySelectorAll('.scroll, .chart')].filter((box) => box.offsetParent && box.scrollWidth > box.clientWidth + 1)
   .map((box) => `${box.className} is clipped: ${box.scrollWidth} px where there are ${box.clientWidth}: ${box.textContent.slice(0, 40)}`);
 
-async function look(browser, {report, folded, folder}, {name, width, height}) {
-  const page = await browser.newPage({viewport: {width, height}});
+async function look(browser, {report, folded, folder}, {name, width, height, colorScheme}) {
+  const page = await browser.newPage({viewport: {width, height}, colorScheme});
   page.setDefaultTimeout(120000);  // a busy machine draws slowly
   const problems = [];
   const own = pathToFileURL(resolve(report)).href;
@@ -219,8 +220,9 @@ async function judge(browser, words) {
   const asked = {report, folder, folded: words.includes('--folded')};
   if (!existsSync(report)) return [`${report} is not there`];
   if (folder) mkdirSync(folder, {recursive: true});
-  const {page, problems} = await look(browser, asked, {name: 'wide', width: 1400, height: 1000});
-  if (!asked.folded && !words.includes('--wide')) problems.push(...(await look(browser, asked, {name: 'phone', width: 390, height: 844})).problems);
+  const alone = asked.folded || words.includes('--wide');
+  const {page, problems} = await look(browser, asked, {name: 'wide', width: 1400, height: 1000, colorScheme: alone ? 'light' : 'dark'});
+  if (!alone) problems.push(...(await look(browser, asked, {name: 'phone', width: 390, height: 844})).problems);
   if (!asked.folded && !problems.length) problems.push(...await lookDark(page, folder));
   await Promise.all(browser.contexts().map((context) => context.close()));
   return problems;

@@ -38,17 +38,23 @@ class SweepReport : public ::testing::Test {
     if (!example::can_open_pages()) GTEST_SKIP() << "chromium or node is not installed";
   }
 
-  static void expect_sound(const study::PublishedSweep& file, const std::string& name) {
-    const Opinion opinion = open_page(page_of(file), "sweep_" + name);
+  /// @param option "--wide": a page of the same parts is looked at on a phone
+  static void expect_sound(const study::PublishedSweep& file, const std::string& name,
+                           const std::string& option = "") {
+    const Opinion opinion = open_page(page_of(file), "sweep_" + name, option);
     EXPECT_TRUE(opinion.sound) << opinion.log;
   }
 };
 
 TEST_F(SweepReport, Table1) { expect_sound(shipped("table1", 50), "table1"); }
 
-TEST_F(SweepReport, Table2WithALostLevel) { expect_sound(shipped("table2", 50), "table2"); }
+TEST_F(SweepReport, Table2WithALostLevel) {
+  expect_sound(shipped("table2", 50), "table2", "--wide");
+}
 
-TEST_F(SweepReport, PlaneHasNoAxis) { expect_sound(shipped("table1_plane", 50), "plane"); }
+TEST_F(SweepReport, PlaneHasNoAxis) {
+  expect_sound(shipped("table1_plane", 50), "plane", "--wide");
+}
 
 TEST_F(SweepReport, TwoAxesAndTwoMethods) { expect_sound(shipped("noise", 20), "noise"); }
 
@@ -115,7 +121,7 @@ TEST_F(SweepReport, WithoutABoundAndWithFailures) {
   sweep.repeats = 10;
   sweep.base.probe.relative_zero_mm = 30.0;  // a gauge: no bound
   sweep.base.probe.nominal_radius_mm = 35.0;
-  expect_sound({sweep, {}}, "no_bound");
+  expect_sound({sweep, {}}, "no_bound", "--wide");
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cone);
   sweep.axes = {testing::over("pass.length_mm", {0.1, 30.0})};  // some readings, then enough
   expect_sound({sweep, {}}, "failures");

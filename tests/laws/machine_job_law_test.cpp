@@ -74,12 +74,12 @@ struct Shares {
   }
 };
 
-// E|δ'|² = u² at every tip if only noise is uncertain. With 15 parameters and 40 measurements the
-// mean of |δ'|²/u² has a relative standard deviation of about sqrt(2/(40 · 5)) = 0.1, with five
-// effective directions per measurement. The bounds are five of these. The uncertainty u also counts
-// component errors that this machine does not have, as far as the data leave room for them. This
-// makes it larger: still no more than the lower bound allows. A tip is beyond 5 u once in a
-// million.
+// E|δ'|² = u² at every tip if only noise is uncertain. With 15 parameters and 20 measurements the
+// mean of |δ'|²/u² has a relative standard deviation of about sqrt(2/(20 · 5)) = 0.14, with five
+// effective directions per measurement. The bounds are 3.5 of these; half of u is 21. The
+// uncertainty u also counts component errors that this machine does not have, as far as the data
+// leave room for them. This makes it larger: still no more than the lower bound allows. A tip is
+// beyond 5 u once in a million.
 TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   constexpr std::uint64_t seed = 20261123;
   Draw draw(seed);
@@ -87,7 +87,7 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   const Machine machine = trunnion();
   const ErrorModel none;
   Shares shares;
-  for (int machine_number = 0; machine_number < 40; ++machine_number) {
+  for (int machine_number = 0; machine_number < 20; ++machine_number) {
     ErrorModel truth = drawn_location_errors(machine, draw);
     const ErrorName hidden = *parse_error_name("EYC");
     truth.terms.push_back({hidden, FourierError{{{2.0, hidden_cos_mm, hidden_sin_mm}}, two_pi}});
@@ -117,8 +117,8 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
 // One ball and one tool do not tell some location errors of a head from others and the ball's
 // place, but only at the ball's own place: elsewhere in the part they moved the tip by up to
 // 13 u. Their sizes are those of Eq. 330, so that E|δ'|² ≤ u²; in two directions or more
-// a machine the mean of |δ'|²/u² has a relative standard deviation of sqrt(2/(40 · 2)) = 0.16. The
-// bounds are five of these. A tip is beyond 5 u once in a million.
+// a machine the mean of |δ'|²/u² has a relative standard deviation of sqrt(2/(20 · 2)) = 0.22. The
+// bounds are 3.6 of these; half of u is 13. A tip is beyond 5 u once in a million.
 TEST(MachineJobLaw, TheUncertaintyCountsWhatOneBallDoesNotTell) {
   constexpr std::uint64_t seed = 20261128;
   Draw draw(seed);
@@ -128,7 +128,7 @@ TEST(MachineJobLaw, TheUncertaintyCountsWhatOneBallDoesNotTell) {
   BallPlan plan;
   plan.balls = {{60.0, 20.0, 30.0}}, plan.tool_lengths_mm = {120.0}, plan.tilt = 4;
   Shares shares;
-  for (int machine_number = 0; machine_number < 40; ++machine_number) {
+  for (int machine_number = 0; machine_number < 20; ++machine_number) {
     const ErrorModel truth = drawn_location_errors(machine, draw);
     MachineJob job;
     job.machine = machine;

@@ -188,25 +188,33 @@ void undo(const Mistake& mistake, std::vector<MachineMeasurement>& data) {
 /// Whether a mistake is worth a look at all rows: it leaves little of some, or they do not tell.
 class Worthwhile {
  public:
+  /// @param most_mm RMS that any mistake may leave; none: a share of the RMS as it was read
   Worthwhile(const Machine& machine, std::span<const MachineMeasurement> data,
-             const CalibrationOptions& options, std::size_t numbers)
-      : machine_(machine), options_(options), some_(some_of(data, numbers)) {
-    if (static_cast<double>(numbers) > some_numbers)
+             const CalibrationOptions& options, std::size_t numbers, std::optional<double> most_mm)
+      : machine_(machine), options_(options), some_(some_of(data, numbers)), of_any_mm_(most_mm) {
+    if (static_cast<double>(numbers) <= some_numbers)
+      of_any_mm_.reset();
+    else if (!most_mm)
       as_read_mm_ = left_of_some_mm(machine, some_, options);
   }
   bool operator()(const Mistake& mistake) const {
-    if (!as_read_mm_) return true;
+    if (!of_any_mm_ && !as_read_mm_) return true;
+    const double most_mm = of_any_mm_ ? *of_any_mm_ : far_better * mistake.smaller * *as_read_mm_;
     std::vector<MachineMeasurement> right = some_;
     undo(mistake, right);
-    const auto again_mm = left_of_some_mm(machine_, right, options_);
-    return again_mm && *again_mm < some_leeway * far_better * mistake.smaller * *as_read_mm_;
+    try {
+      const auto again_mm = left_mm(machine_, right, options_);
+      return again_mm && *again_mm < some_leeway * most_mm;
+    } catch (const InputError&) {
+      return true;  // too few rows
+    }
   }
 
  private:
   const Machine& machine_;
   const CalibrationOptions& options_;
   std::vector<MachineMeasurement> some_;
-  std::optional<double> as_read_mm_;
+  std::optional<double> of_any_mm_, as_read_mm_;
 };
 
 /// The one row without which the readings fit, by halving of what does not. Empty: there is none.
@@ -285,17 +293,17 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
     if (std::string row = one_wrong_row(machine, data, options, fine_mm); !row.empty()) return row;
   std::string best;
   double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * as_read_mm;
-  const Worthwhile worthwhile(machine, data, options, found.equations);
+  const double explained = std::max(fine_mm, explained_mm);
+  const Worthwhile worthwhile(machine, data, options, found.equations,
+                              wrong ? std::optional(explained) : std::nullopt);
   std::vector<Mistake> mistakes = column_mistakes(machine, data);
   std::ranges::move(tool_mistakes(machine, data, options), std::back_inserter(mistakes));
   for (const Mistake& mistake : mistakes) {
-    if (!wrong && !worthwhile(mistake)) continue;
+    if (!worthwhile(mistake)) continue;
     std::vector<MachineMeasurement> right(data.begin(), data.end());
     undo(mistake, right);
     const std::optional<double> again_mm = left_mm(machine, right, options);
-    if (!again_mm || *again_mm > std::max(fine_mm, explained_mm) ||
-        !(*again_mm < least_mm * mistake.smaller))
-      continue;
+    if (!again_mm || *again_mm > explained || !(*again_mm < least_mm * mistake.smaller)) continue;
     least_mm = *again_mm / mistake.smaller;
     best = fmt::format(
         "{}, and {:.3g} µm are left if {}: {}",

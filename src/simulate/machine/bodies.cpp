@@ -36,55 +36,66 @@ double evaluated(const TableError& error, double q) {
   return std::lerp(error.values[k - 1], error.values[k], share);
 }
 
-/// Sum of the terms of a name at a position.
-double sum_of(const ErrorModel& errors, const ErrorName& name, double position) {
-  double sum = 0.0;
-  for (const ErrorTerm& term : errors.terms) {
-    if (term.name == name)
-      sum += std::visit([&](const auto& f) { return evaluated(f, position); }, term.function);
-  }
-  return sum;
-}
+/// Errors of a body along X Y Z and about them: those of its place, and of its motion.
+struct BodyErrors {
+  Vector3 shift{}, tilt{}, along{}, turn{};
+};
 
-/// The three along X Y Z, or about them, of a body.
-Vector3 three_of(const ErrorModel& errors, bool component, bool about, std::size_t body,
-                 double position) {
-  Vector3 out{};
-  for (std::size_t i = 0; i < 3; ++i)
-    out[i] = sum_of(errors, {component, about ? i + 3 : i, body}, position);
+/// @param position of the body's axis
+BodyErrors of_body(const ErrorModel& errors, std::size_t body, double position) {
+  BodyErrors out;
+  for (const ErrorTerm& term : errors.terms) {
+    const ErrorName& name = term.name;
+    if (name.body != body) continue;
+    Vector3& turn = name.component ? out.turn : out.tilt;
+    Vector3& along = name.component ? out.along : out.shift;
+    const double at = name.component ? position : 0.0;
+    (name.direction < 3 ? along[name.direction] : turn[name.direction - 3]) +=
+        std::visit([&](const auto& f) { return evaluated(f, at); }, term.function);
+  }
   return out;
 }
 
 Vector3 negative(const Vector3& v) { return {-v[0], -v[1], -v[2]}; }
 
-Homogeneous about(const Vector3& point, const Homogeneous& turn) {
-  return product(translation(point), product(turn, translation(negative(point))));
+Vector3 plus(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+/// The motion, and then a translation.
+Homogeneous then(Homogeneous motion, const Vector3& by_mm) {
+  for (std::size_t i = 0; i < 3; ++i) motion[i][3] += by_mm[i];
+  return motion;
 }
 
-Vector3 plus(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+/// The motion after a translation.
+Homogeneous after(const Vector3& by_mm, Homogeneous motion) {
+  const Vector3 at = transformed(motion, by_mm);
+  for (std::size_t i = 0; i < 3; ++i) motion[i][3] = at[i];
+  return motion;
+}
+
+Homogeneous about(const Vector3& point, const Homogeneous& turn) {
+  return then(after(negative(point), turn), point);
+}
 
 /// A body against its neighbour nearer to the bed: +1 on the tool's side, −1 on the workpiece's.
 Homogeneous moved(const MachineAxis& axis, const ErrorModel& errors, double q, double lost) {
   const std::size_t body = index_of(axis.name), letter = body % 3;
   const bool rotary = is_rotary(axis.name);
   const double sense = axis.carries_workpiece ? -1.0 : 1.0;
-  Vector3 shift = three_of(errors, false, false, body, 0.0);
-  Vector3 tilt = three_of(errors, false, true, body, 0.0);
+  auto [shift, tilt, along, turn] = of_body(errors, body, q);
   double& own = rotary ? tilt[letter] : shift[letter];
   const double at = sense * (q + own + lost);
   own = 0.0;
   Vector3 direction = transformed(rotation(tilt), axis.direction);
-  Homogeneous error = product(translation(three_of(errors, true, false, body, q)),
-                              rotation(three_of(errors, true, true, body, q)));
+  Homogeneous error = then(rotation(turn), along);
   if (axis.carries_workpiece && errors.sign == ErrorSign::tool_minus_workpiece)
     error = inverse(error);
   if (!rotary) {
     for (double& component : direction) component *= at;
-    return product(translation(direction), about(errors.reference_mm[body], error));
+    return then(about(errors.reference_mm[body], error), direction);
   }
   const Vector3 point = plus(axis.point_mm, shift);
-  return product(translation(point),
-                 product(error, product(rotation(direction, at), translation(negative(point)))));
+  return then(product(error, after(negative(point), rotation(direction, at))), point);
 }
 
 }  // namespace
@@ -103,9 +114,12 @@ Homogeneous inverse(const Homogeneous& m) {
 
 Homogeneous product(const Homogeneous& left, const Homogeneous& right) {
   Homogeneous out{};
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j)
-      for (std::size_t k = 0; k < 4; ++k) out[i][j] += left[i][k] * right[k][j];
+      out[i][j] = left[i][0] * right[0][j] + left[i][1] * right[1][j] + left[i][2] * right[2][j];
+    out[i][3] += left[i][3];
+  }
+  out[3][3] = 1.0;
   return out;
 }
 
@@ -152,9 +166,8 @@ Ends ends(const Machine& machine, const ErrorModel& errors, const AxisPositions&
       out.bed_from_spindle = product(out.bed_from_spindle, moved(axis, errors, axes[i], lost[i]));
   }
   const Vector3& gauge = machine.tool.gauge_point_mm;
-  const Homogeneous spindle =
-      product(translation(three_of(errors, false, false, spindle_body, 0.0)),
-              about(gauge, rotation(three_of(errors, false, true, spindle_body, 0.0))));
+  const BodyErrors held = of_body(errors, spindle_body, 0.0);
+  const Homogeneous spindle = then(about(gauge, rotation(held.tilt)), held.shift);
   out.bed_from_spindle = product(out.bed_from_spindle, spindle);
   return out;
 }
@@ -164,15 +177,16 @@ double own_error(const Machine& machine, const ErrorModel& errors, AxisName name
   const std::size_t body = index_of(name);
   // A carriage under the part that goes along with the tool's way takes it back from the tool.
   const bool back = axis.carries_workpiece && errors.sign == ErrorSign::moving_part;
-  const Vector3 error = three_of(errors, true, is_rotary(name), body, position);
+  const BodyErrors all = of_body(errors, body, position);
+  const Vector3& error = is_rotary(name) ? all.turn : all.along;
   double along = 0.0;
   for (std::size_t i = 0; i < 3; ++i) along += axis.direction[i] * error[i];
-  return (back ? -along : along) + sum_of(errors, {false, body, body}, 0.0);
+  return (back ? -along : along) + (is_rotary(name) ? all.tilt : all.shift)[body % 3];
 }
 
 Homogeneous part_on_table(const ErrorModel& errors) {
-  return product(translation(three_of(errors, false, false, workpiece_body, 0.0)),
-                 rotation(three_of(errors, false, true, workpiece_body, 0.0)));
+  const BodyErrors held = of_body(errors, workpiece_body, 0.0);
+  return then(rotation(held.tilt), held.shift);
 }
 
 void take_lost_motion(const AxisPositions& reversal, const AxisPositions& from,

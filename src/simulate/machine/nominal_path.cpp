@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "math/golden_section.hpp"
 #include "simulate/machine/tool_in_part.hpp"
 #include "trueaxis/units.hpp"
 
@@ -164,23 +165,16 @@ double NominalPath::off_mm(const Vector3& tip_mm) const {
                    : off_beside_mm(tip_mm, nearest);
 }
 
-/// The foot of the perpendicular lies next to the nearest point: thirds are cut off.
+/// The foot of the perpendicular lies next to the nearest point.
 double NominalPath::off_beside_mm(const Vector3& tip_mm, std::size_t nearest) const {
   const std::size_t last = tips_mm_.size() - 1;
   const auto parts = static_cast<double>(last);
-  double low = static_cast<double>(nearest == 0 ? 0 : nearest - 1) / parts,
-         high = static_cast<double>(std::min(nearest + 1, last)) / parts;
-  const auto off_at = [&](double share) {
-    return distance_mm(tip_mm, tip_on_way(*machine_, *move_, share));
+  const double low = static_cast<double>(nearest == 0 ? 0 : nearest - 1) / parts,
+               high = static_cast<double>(std::min(nearest + 1, last)) / parts;
+  const auto near_at = [&](double share) {
+    return -distance_mm(tip_mm, tip_on_way(*machine_, *move_, share));
   };
-  for (int round = 0; round < 30; ++round) {
-    const double a = std::lerp(low, high, 1.0 / 3.0), b = std::lerp(low, high, 2.0 / 3.0);
-    if (off_at(a) < off_at(b))
-      high = b;
-    else
-      low = a;
-  }
-  return off_at(0.5 * (low + high));
+  return -golden_section(near_at, low, high, 25).largest;  // to 6e-6 of the range
 }
 
 Vector3 lead_of(const Machine& machine, const ControlMove& move) {

@@ -4,7 +4,7 @@
 
     judge.py COMMAND [NAME…] [--part K/N]    runs fit, run and form on every stream (of every N-th
                                              from the K-th) and prints a table; diagnose, whose
-                                             search run has too, on every second, and on those named
+                                             search run has too, on every fourth, and on those named
 
 Of each answer the axis at both ends of the data is judged: refused (none is printed), right (within
 1.5 U, which is 3 u), unseen (no reading of the stream shows it, and the answer says so) or WRONG. Of
@@ -115,7 +115,7 @@ def main():
     wrong = 0
     with ThreadPoolExecutor(2) as pool:
         asked = wanted[begin::stride]
-        for name, row in pool.map(lambda k: try_one(command, asked[k], words or k % 2), range(len(asked))):
+        for name, row in pool.map(lambda k: try_one(command, asked[k], words or k % 4 == 1), range(len(asked))):
             print(f"{name:34}", *(f"{what}: {row[what][0]:8}({row[what][1]})" for what in row))
             for what, (verdict, _, why) in row.items():
                 wrong += "WRONG" in verdict
