@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glog/logging.h>
 
-#include <cstdint>
-
 #include "cli/dropped.hpp"
 #include "cli/guarded.hpp"
 #include "cli/program.hpp"
 #include "platform/memory.hpp"
 #include "platform/terminal.hpp"
-
-// Highway measures the resolution of its clock when it is loaded: a fifth of the time to start. No
-// one here asks for it.
-namespace hwy::platform {
-std::uint64_t TimerResolution();
-std::uint64_t TimerResolution() { return 1; }
-}  // namespace hwy::platform
 
 int main(int argc, char** argv) {
   using namespace trueaxis;

@@ -49,34 +49,6 @@ Eigen::VectorXd Fitted::of(std::size_t term) const {
   return solve(gram, all).coefficients.tail(static_cast<Eigen::Index>(terms[term].size()));
 }
 
-std::vector<double> Fitted::log_p() const {
-  constexpr double regular = 1e-7;  // of the squares of a column, what the others leave
-  const Columns all = besides();
-  const Solution whole = solve(gram, all);
-  std::vector<double> out;
-  auto begin = static_cast<Eigen::Index>(base.size());
-  for (std::size_t term = 0; term < terms.size(); ++term) {
-    const auto size = static_cast<Eigen::Index>(terms[term].size());
-    const Eigen::MatrixXd block = whole.inverse.block(begin, begin, size, size);
-    const Eigen::VectorXd own = whole.coefficients.segment(begin, size);
-    begin += size;
-    bool alone = static_cast<std::size_t>(whole.rank) < all.size();
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const auto at = static_cast<Eigen::Index>(terms[term][static_cast<std::size_t>(i)]);
-      alone |= !(block(i, i) * gram(at, at) < 1.0 / regular);
-    }
-    if (alone) {
-      out.push_back(log_p(term));
-      continue;
-    }
-    const double gain = linear::weighed_square(own, block);
-    const std::size_t others = all.size() - terms[term].size();
-    out.push_back(log_p_value(gain, static_cast<double>(size), whole.rss + gain,
-                              static_cast<double>(count - others)));
-  }
-  return out;
-}
-
 double Fitted::criterion(const WeighTerm& weigh_term, bool one_width) const {
   double sum =
       static_cast<double>(count - base.size()) * std::log(solve(gram, besides()).rss / gram(0, 0));
@@ -99,8 +71,8 @@ std::vector<std::size_t> remaining(Fitted model, std::vector<double> level) {
   std::vector<std::size_t> out(model.terms.size());
   std::iota(out.begin(), out.end(), std::size_t{0});
   while (!out.empty()) {
-    std::vector<double> over = model.log_p();
-    for (std::size_t i = 0; i < out.size(); ++i) over[i] -= level[i];
+    std::vector<double> over;
+    for (std::size_t i = 0; i < out.size(); ++i) over.push_back(model.log_p(i) - level[i]);
     const auto weakest = std::ranges::max_element(over) - over.begin();
     if (over[static_cast<std::size_t>(weakest)] < 0.0) break;
     out.erase(out.begin() + weakest);

@@ -35,9 +35,6 @@ struct Fitted {
   Projection beside(std::size_t term) const { return {gram, besides(term)}; }
   /// ln p of a term after all others.
   double log_p(std::size_t term) const { return log_p_of(beside(term), terms[term], count); }
-  /// That of every term, by one solution: the inverse of the whole has what a term has after all
-  /// others in its block. Terms of a Gram matrix that is nearly singular are solved one by one.
-  std::vector<double> log_p() const;
   /// Coefficients of a term, fitted with all others.
   Eigen::VectorXd of(std::size_t term) const;
 

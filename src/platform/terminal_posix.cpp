@@ -3,8 +3,16 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
 
 #include "platform/terminal.hpp"
+
+// Highway's shared library measures the resolution of its clock when it is loaded, a fifth of the
+// time to start. No one here asks for it: the library finds this in its place.
+namespace hwy::platform {
+[[gnu::visibility("default")]] std::uint64_t TimerResolution();
+std::uint64_t TimerResolution() { return 1; }
+}  // namespace hwy::platform
 
 namespace trueaxis::platform {
 namespace {
