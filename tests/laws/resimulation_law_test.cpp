@@ -10,7 +10,9 @@
 #include "diagnose/files/diagnosis_json.hpp"
 #include "laws/lathe_bench.hpp"
 #include "laws/lathe_cases.hpp"
+#include "trueaxis/diagnosis.hpp"
 #include "trueaxis/resimulation.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -89,6 +91,26 @@ INSTANTIATE_TEST_SUITE_P(Parts, ResimulationLaw,
                                            LatheBench{"ConeFromTheRear", -0.2, false, true},
                                            LatheBench{"ConicalBore", 0.1, true}),
                          [](const auto& bench) { return bench.param.name; });
+
+// A ball touches a cone r sin α from below or above its centre. A wave that is taken to be at the
+// centre comes back out of phase: here by 0.39 mm of 1.5 mm, with 2.4 times the wave left.
+TEST(ResimulationOfACone, AWaveIsWhereTheBallTouches) {
+  for (const bool bore : {false, true}) {
+    lathe::Scenario scenario = LatheBench{"", std::tan(15.0 * rad_per_deg), bore}.scenario();
+    scenario.probe.ball_radius_mm = 1.5;
+    scenario.noise.sigma_mm = 5e-4;
+    scenario.effects = {{"part.waviness", {{"amplitude_mm", 0.002}, {"wavelength_mm", 1.5}}}};
+    const ProbeStream stream = lathe::simulate(scenario);
+    DiagnoseOptions options;
+    options.fit.surface = SurfaceKind::cone;
+    options.fit.bore = bore;
+    const Diagnosis diagnosis = diagnose(stream, options);
+    ASSERT_EQ(diagnosis.findings.size(), 1u);
+    const Comparison comparison = resimulate(diagnosis, stream).comparison;
+    EXPECT_FALSE(refuted(comparison));
+    EXPECT_LT(comparison.after.rms_mm, 1.1 * diagnosis.noise.sigma_mm) << "bore " << bore;
+  }
+}
 
 }  // namespace
 }  // namespace trueaxis::testing

@@ -45,7 +45,7 @@ void fill_contacts(const Clamping& now, const LinearisationFacts& facts, std::si
     sensed[k] = x[k] - now.x_jog_mm;
     chuck[k] = theta[k];
     theta[k] += now.reindex_rad + now.slips_by_rad;
-    s[k] = face ? from[k] : s[k] - now.z_shift_mm;
+    s[k] = face ? from[k] : s[k] + now.touches_mm - now.z_shift_mm;
     const auto centre = axis.at(z[k]);
     d2x_dc2[k] = face ? -z[k] * dx_dz[k] : -(centre[0] * cosine[k] + centre[1] * sine[k]);
     dx_dy[k] =

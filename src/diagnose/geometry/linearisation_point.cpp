@@ -253,6 +253,7 @@ std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm) {
     c.shape = s.shape;
     const double secant = std::hypot(1.0, s.shape.tan_half_angle);
     c.shape.radius_mm += (fit.bore ? -ball_mm : ball_mm) * secant;
+    c.touches_mm = (fit.bore ? -ball_mm : ball_mm) * s.shape.tan_half_angle / secant;
     c.root = s.side;
     c.reindex_rad = s.set_up.reindex_rad;
     c.z_shift_mm = s.set_up.z_shift_mm;

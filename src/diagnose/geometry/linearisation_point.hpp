@@ -25,6 +25,7 @@ struct Clamping {
   int number = 1;
   Revolved shape;  ///< where the ball's centre (or the contact) runs
   Root root = Root::front;
+  double touches_mm = 0.0;  ///< along the axis, from the ball's centre to where it touches
   double reindex_rad = 0.0, z_shift_mm = 0.0, x_jog_mm = 0.0, clamp_force_ratio = 1.0;
   std::size_t axis = 0;  ///< which axis of the base it has: set-ups not moved share one
   std::size_t until = std::numeric_limits<std::size_t>::max();  ///< the reading it ends before
