@@ -19,6 +19,7 @@ constexpr double far_better = 1.0 / 3.0;  // of the RMS: nine in likelihood a re
 constexpr double much_mm = 0.01;          // few lobes of a seat are larger
 constexpr double least_mm = 1e-6;         // what a stream's digits leave
 constexpr double most_feed_mm = 5.0;      // per revolution: nobody probes coarser
+constexpr double many_turns = 20.0;       // three of radians that are read as turns
 constexpr double nearly_a_turn = 0.9 * two_pi;
 constexpr double restless = 1.2;  // of the travel over its range, Z against X
 
@@ -27,6 +28,7 @@ struct Suspicion {
   bool c_stands = false;        ///< C hardly turns
   bool unlike_spindle = false;  ///< C does not turn as a spindle does
   bool leaves_much = false;     ///< residuals of more than lobes usually are
+  bool other_unit = false;      ///< unlike a spindle, or they are left of many turns
   bool any = true;              ///< the mend itself leaves a column alone that does not look so
   bool z_to_and_fro = false;    ///< X runs along while Z goes to and fro with every revolution
 };
@@ -97,11 +99,11 @@ constexpr Misreading misreadings[] = {
     {"C and X_M are exchanged", exchange, &Suspicion::c_stands, false,
      [](ProbeStream& s) { exchange_with_c(s.reading_mm, s.c_rad); }},
     {"C is in radians", "C[rad]", spindle, false, scale_c<1.0 / rad_per_deg>},
-    {"C is in radians", "C[rad]", spindle, false, scale_c<1.0 / two_pi>},
+    {"C is in radians", "C[rad]", &Suspicion::other_unit, false, scale_c<1.0 / two_pi>},
     {"C is in degrees", "C[deg]", spindle, false, scale_c<rad_per_deg>},
     {"C is in degrees", "C[deg]", spindle, false, scale_c<1.0 / 360.0>},
     {"C is in turns", "C[rev]", spindle, false, scale_c<360.0>},
-    {"C is in turns", "C[rev]", spindle, false, scale_c<two_pi>},
+    {"C is in turns", "C[rev]", &Suspicion::other_unit, false, scale_c<two_pi>},
     {"C has 400 gon in a revolution", "multiply it by 0.9", &Suspicion::leaves_much, false,
      scale_c<0.9>},
     {"C runs at twice the angle", "halve it", &Suspicion::leaves_much, false, scale_c<0.5>},
@@ -167,9 +169,13 @@ std::string turns_text(const ProbeStream& stream) {
 std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
   const double before_mm = left_mm(stream, fit);
   if (!(before_mm > least_mm)) return "";
-  const Suspicion suspicion{range_of(stream.c_rad).length() < nearly_a_turn,
-                            unlike_a_spindle(stream), before_mm > much_mm, true,
-                            z_goes_to_and_fro(stream)};
+  const double turning_rad = range_of(stream.c_rad).length();
+  const bool unlike = unlike_a_spindle(stream), much = before_mm > much_mm;
+  const Suspicion suspicion{.c_stands = turning_rad < nearly_a_turn,
+                            .unlike_spindle = unlike,
+                            .leaves_much = much,
+                            .other_unit = unlike || (much && turning_rad > many_turns * two_pi),
+                            .z_to_and_fro = z_goes_to_and_fro(stream)};
   for (const Misreading& one : misreadings) {
     if (!(suspicion.*one.looks) || (one.needs_position && !stream.has_position())) continue;
     ProbeStream right = stream;
