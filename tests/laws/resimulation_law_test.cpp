@@ -92,8 +92,8 @@ INSTANTIATE_TEST_SUITE_P(Parts, ResimulationLaw,
                                            LatheBench{"ConicalBore", 0.1, true}),
                          [](const auto& bench) { return bench.param.name; });
 
-// A ball touches a cone r sin α from below or above its centre. A wave that is taken to be at the
-// centre comes back out of phase: here by 0.39 mm of 1.5 mm, with 2.4 times the wave left.
+// A ball touches a cone r sin α from below or above its centre. If a wave is assumed at the
+// centre, it comes back out of phase: here by 0.39 mm of 1.5 mm, with 1.5 times the wave left.
 TEST(ResimulationOfACone, AWaveIsWhereTheBallTouches) {
   for (const bool bore : {false, true}) {
     lathe::Scenario scenario = LatheBench{"", std::tan(15.0 * rad_per_deg), bore}.scenario();
