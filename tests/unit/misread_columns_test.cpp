@@ -207,7 +207,7 @@ TEST(FitMisreading, EachWayToReadAStreamIsFound) {
         misread_as(with_c(right, [&](double c) { return factor * c; }), right);
     EXPECT_TRUE(found.starts_with(what)) << factor << ' ' << found;
   }
-  // At 36.7 readings per revolution they are 5.8, as of a spindle: what is left tells.
+  // At 36.7 readings per revolution they are 5.8, as of a spindle: the residuals tell.
   const ProbeStream dense = run_out(1.0, 36.7);
   const std::string found = misread_as(with_c(dense, [](double c) { return two_pi * c; }), dense);
   EXPECT_TRUE(found.starts_with("C is in radians")) << found;
