@@ -28,7 +28,7 @@ struct Suspicion {
   bool c_stands = false;        ///< C hardly turns
   bool unlike_spindle = false;  ///< C does not turn as a spindle does
   bool leaves_much = false;     ///< residuals of more than lobes usually are
-  bool other_unit = false;      ///< unlike a spindle, or they are left of many turns
+  bool other_unit = false;      ///< unlike a spindle, or many turns leave so much
   bool any = true;              ///< the mend itself leaves a column alone that does not look so
   bool z_to_and_fro = false;    ///< X runs along while Z goes to and fro with every revolution
 };

@@ -71,12 +71,16 @@ std::optional<Reason> inverted_of(const ProbeStream& stream, const Diagnosis& di
   if (stream.kind == StreamKind::face || rear || !fit.axis_known() || fit.set_ups.size() > 1)
     return {};
   if (!leaves_wave(stream, diagnosis)) return {};
+  // Turned, a position would be one of the rear side, and the axis a mirrored one.
+  const Reason remedy = stream.indication == Indication::relative
+                            ? Reason{ReasonCode::turn_sign, {}, {}, {{"column", "X_M"}}}
+                            : Reason{ReasonCode::probe_again};
   return Reason{ReasonCode::column_reversed,
                 {},
                 {},
                 {{"column", "X_M"}, {"file", stream.source}},
                 {},
-                {{ReasonCode::turn_sign, {}, {}, {{"column", "X_M"}}}}};
+                {remedy}};
 }
 
 constexpr Threshold of_wave[] = {
