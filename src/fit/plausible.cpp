@@ -26,6 +26,7 @@ constexpr double more_than_stated = 3.0;  // a noise that is stated may be excee
 constexpr double other_is_far_better = 1.0 / 3.0;              // of the RMS
 constexpr double mostly_scatter = 0.7;                         // of the residuals' RMS
 constexpr double sphere_leaves_mm = 0.01, sphere_share = 0.1;  // of the RMS
+constexpr double off_nominal_mm = 1.0, off_nominal = 0.05;     // more than stock, less than a unit
 constexpr double flattest_noise = 1.8;                         // kurtosis of a uniform distribution
 constexpr double least_for_kurtosis = 100.0, many_digits = 10.0, white_sds = 4.0;
 constexpr double dense_step_rad = two_pi / 36.0;  // neighbours meet the same form
@@ -143,6 +144,22 @@ std::string is_sphere(const ProbeStream& stream, const FitResult& fit, const Ref
       sphere.parameter("radius").value, stream.source);
 }
 
+/// A part of another radius than is stated, all along the probed length; empty: it is not.
+std::string not_nominal(const ProbeStream& stream, const FitResult& fit) {
+  if (!stream.nominal_radius_mm || stream.indication == Indication::relative ||
+      !is_diagnosed(fit.surface) || fit.surface == SurfaceKind::plane)
+    return "";
+  const double nominal_mm = *stream.nominal_radius_mm, radius_mm = fit.shape.radius_mm;
+  const double length_mm = fit.position_max_mm - fit.position_min_mm;
+  const double off_mm =
+      std::abs(radius_mm - nominal_mm) - 0.5 * length_mm * std::abs(fit.shape.tan_half_angle);
+  if (!(off_mm > off_nominal_mm + off_nominal * nominal_mm)) return "";
+  return fmt::format(
+      "the readings show a radius of {:.5g} mm, and nominal_radius is {:.5g} mm: check whether X_M "
+      "is a radius or a diameter, its unit and zero, or correct nominal_radius",
+      radius_mm, nominal_mm);
+}
+
 /// Correlation of the residuals in the order of `rows`, from one to the next.
 double neighbours_correlate(const std::vector<double>& left_mm,
                             const std::vector<std::size_t>& rows) {
@@ -210,6 +227,7 @@ std::string implausible(const ProbeStream& stream, const FitResult& fit, const R
   if (std::string why = likely_misreading(stream, fit, refit); !why.empty()) return why;
   // A program that fills a stream knows its units: a model may have any scale.
   if (!stream.x_convention || fit.status != FitStatus::converged) return "";
+  if (std::string why = not_nominal(stream, fit); !why.empty()) return why;
   if (std::string why = is_sphere(stream, fit, refit); !why.empty()) return why;
   if (std::string why = unlike_noise(stream, fit); !why.empty()) return why;
   return out_of_proportion(stream, fit, refit);
