@@ -82,8 +82,10 @@ std::string_view template_of(ReasonCode code) {
        "before the slip"},
       {left_out_at_an_end,
        "{ref}most of the {end} {count::.0f} readings of a pass are excluded because they do not "
-       "lie where the others do: the part may have slipped there and have moved. Clamp it again "
-       "and probe again, or remove that end from the stream if the surface ends there"},
+       "lie where the others do: the part may have slipped there and have moved. Probe again with "
+       "a "
+       "return pass, which tells a form of the part from a slip, or remove that end from the "
+       "stream if the surface ends there"},
       {far_off_at_the_end,
        "{ref}{count::.0f} of the last {last::.0f} readings lie more than {limit::.0f} σ off, as no "
        "other {last::.0f} do: the part may have slipped there and have moved. Clamp it again and "

@@ -3,6 +3,8 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <iterator>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "fit/moved.hpp"
@@ -20,6 +22,8 @@ constexpr Threshold gathered{"gathered", 3.0, "times elsewhere", "outliers alone
 constexpr Threshold hardly{"by_chance", 1e-4, "of streams",
                            "that a short run is excluded as a whole"};
 constexpr Threshold least_slip{"slip", 0.01, "mm", "the smallest that is typical, which must show"};
+constexpr double no_edges = 0.9;  // of the readings of an undercut lie away from its edges
+constexpr Threshold alike{"alike", 4.0, "σ", "nine of ten differences of readings are within 2.6"};
 constexpr double limits[] = {3.0, 4.0};  // σ
 constexpr Threshold off_by_chance{"by_chance", 1e-3, "of streams",
                                   "for both limits together, Eq. 275"};
@@ -63,39 +67,80 @@ std::size_t far_in_last(const std::vector<bool>& far) {
   return p * static_cast<double>(std::size(limits)) < off_by_chance.value ? here : 0;
 }
 
-/// Whether the excluded of some readings have another diameter, as an undercut has: a slip would
-/// show there.
-bool is_other_diameter(const ProbeStream& stream, const Diagnosis& diagnosis, std::size_t begin,
-                       std::size_t end, const std::vector<bool>& left_out) {
-  // A cone or a face that moved along its axis lies off alike all round.
-  if (diagnosis.baseline.surface != SurfaceKind::cylinder ||
-      diagnosis.residual_after_mm.size() != stream.size())
-    return false;
-  std::vector<double> c_rad, z_mm, off_mm;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (!left_out[i]) continue;
-    c_rad.push_back(stream.c_rad[i]), z_mm.push_back(stream.position_mm[i]);
-    off_mm.push_back(diagnosis.residual_after_mm[i]);
+/// What was excluded at an end of a pass.
+struct LeftOut {
+  const ProbeStream& stream;
+  const Diagnosis& diagnosis;
+  std::vector<Pass> passes;
+  std::vector<char> excluded;
+
+  LeftOut(const ProbeStream& read, const Diagnosis& of)
+      : stream(read), diagnosis(of), passes(find_passes(read)), excluded(read.size(), 0) {
+    for (const auto* rows : {&of.baseline.rejected, &of.noise.masked})
+      for (const Rejected& r : *rows)
+        if (r.row >= 1 && r.row <= read.size()) excluded[r.row - 1] = 1;
   }
-  const double within_mm = diagnosis.extended.axis_known() ? U_of_axis_mm(diagnosis.extended) : 0.0;
-  return sideways_of(c_rad, z_mm, off_mm).stays(within_mm, least_slip.value);
-}
+
+  /// Whether it has another diameter, as an undercut has: a slip would show there sideways.
+  bool has_other_diameter(std::size_t begin, std::size_t end) const {
+    std::vector<double> c_rad, z_mm, off_mm;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!excluded[i]) continue;
+      c_rad.push_back(stream.c_rad[i]), z_mm.push_back(stream.position_mm[i]);
+      off_mm.push_back(diagnosis.residual_after_mm[i]);
+    }
+    const bool known = diagnosis.extended.axis_known();
+    return sideways_of(c_rad, z_mm, off_mm)
+        .stays(known ? U_of_axis_mm(diagnosis.extended) : 0.0, least_slip.value);
+  }
+
+  /// Whether it lies where another pass has what was excluded there, but for noise and edges.
+  bool lies_as_in(const Pass& other, std::size_t begin, std::size_t end) const {
+    std::vector<std::pair<double, double>> there;  // Z and residual
+    for (std::size_t i = other.begin; i < other.end; ++i)
+      if (excluded[i]) there.emplace_back(stream.position_mm[i], diagnosis.residual_after_mm[i]);
+    std::ranges::sort(there);
+    std::vector<double> apart_mm;
+    for (std::size_t i = begin; i < end; ++i)
+      if (excluded[i])
+        apart_mm.push_back(
+            std::abs(diagnosis.residual_after_mm[i] - between(there, stream.position_mm[i])));
+    const auto ninth =
+        apart_mm.begin() + static_cast<long>(no_edges * static_cast<double>(apart_mm.size() - 1));
+    std::ranges::nth_element(apart_mm, ninth);
+    return *ninth < alike.value * diagnosis.noise.sigma_mm;
+  }
+
+  /// Between the two next to Z.
+  static double between(const std::vector<std::pair<double, double>>& there, double z_mm) {
+    const auto above = std::ranges::lower_bound(there, z_mm, {}, &std::pair<double, double>::first);
+    if (above == there.begin()) return above->second;
+    const auto& [low, at_low] = *(above - 1);
+    if (above == there.end() || !(above->first > low)) return at_low;
+    return std::lerp(at_low, above->second, (z_mm - low) / (above->first - low));
+  }
+};
 
 std::optional<Reason> left_out_at_end(const ProbeStream& stream, const Diagnosis& diagnosis) {
   if (stream.size() == 0) return {};
-  std::vector<bool> left_out(stream.size(), false);
-  for (const auto* rows : {&diagnosis.baseline.rejected, &diagnosis.noise.masked})
-    for (const Rejected& r : *rows)
-      if (r.row >= 1 && r.row <= stream.size()) left_out[r.row - 1] = true;
-  for (const Pass& pass : find_passes(stream)) {
+  const LeftOut of(stream, diagnosis);
+  const bool round = diagnosis.baseline.surface == SurfaceKind::cylinder;
+  for (const Pass& pass : of.passes) {
     const std::size_t size = pass.end - pass.begin;
     const auto unproven = [&](std::size_t begin, std::size_t end) {
-      return begin < end && !is_other_diameter(stream, diagnosis, begin, end, left_out);
+      if (begin == end) return false;
+      if (!stream.has_position() || diagnosis.residual_after_mm.size() != stream.size())
+        return true;
+      const Pass* other =
+          met_again(std::span(of.passes), stream.position_mm, of.excluded, begin, end);
+      if (other != nullptr && of.lies_as_in(*other, begin, end)) return false;
+      // A cone or a face that moves along its axis at the last lies off alike all round.
+      return (!round && end == stream.size()) || !of.has_other_diameter(begin, end);
     };
     const std::size_t last =
-        left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
+        left_out_end(size, [&](std::size_t k) { return of.excluded[pass.end - 1 - k] != 0; });
     const std::size_t first =
-        left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
+        left_out_end(size, [&](std::size_t k) { return of.excluded[pass.begin + k] != 0; });
     const bool at_last = unproven(pass.end - last, pass.end);
     if (at_last || unproven(pass.begin, pass.begin + first))
       return Reason{ReasonCode::left_out_at_an_end,
@@ -127,7 +172,7 @@ std::optional<Reason> far_off_at_end(const ProbeStream&, const Diagnosis& diagno
   return {};
 }
 
-constexpr Threshold of_left_out[] = {mostly, gathered, hardly, least_slip};
+constexpr Threshold of_left_out[] = {mostly, gathered, hardly, least_slip, alike};
 constexpr Threshold of_far_off[] = {off_by_chance};
 
 }  // namespace

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "trueaxis/probe_stream.hpp"
@@ -23,5 +26,31 @@ struct Pass {
 /// The passes of a stream, in order; they cover every reading once. A `pass` column is taken at its
 /// word. Single steps between runs (positioning moves) belong to the pass that they end.
 std::vector<Pass> find_passes(const ProbeStream& stream);
+
+/// Another pass of the set-up that has most of its readings excluded at the place of those that are
+/// excluded among [begin, end): the surface is so there, as no slip comes twice. Null: none has.
+/// @param place_mm, excluded a value a reading; `place_mm` may be empty
+template <typename Places, typename Excluded>
+const Pass* met_again(std::span<const Pass> passes, const Places& place_mm,
+                      const Excluded& excluded, std::size_t begin, std::size_t end) {
+  constexpr std::size_t least = 8;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = begin; i < end && place_mm.size() > 0; ++i)
+    if (excluded[i]) low = std::min(low, place_mm[i]), high = std::max(high, place_mm[i]);
+  const auto here = std::ranges::find_if(
+      passes, [&](const Pass& pass) { return pass.begin < end && end <= pass.end; });
+  if (!(low < high) || here == passes.end()) return nullptr;
+  const auto found = std::ranges::find_if(passes, [&](const Pass& pass) {
+    if (pass.begin == here->begin || pass.setup != here->setup) return false;
+    std::size_t there = 0, out = 0;
+    for (std::size_t i = pass.begin; i < pass.end; ++i) {
+      if (place_mm[i] < low || place_mm[i] > high) continue;
+      ++there;
+      out += excluded[i] ? 1 : 0;
+    }
+    return there >= least && 2 * out >= there;
+  });
+  return found == passes.end() ? nullptr : &*found;
+}
 
 }  // namespace trueaxis

@@ -131,7 +131,8 @@ ObservationMask concentrated(std::vector<double> left_mm, const ObservationMask&
 
 /// Whether the part is at the end of the stream where most of its readings have it: else it
 /// slipped, and it is what lies far off that counts. Most of the last revolution lies there, and no
-/// more in a row is far off at the end than before; or what is off there has another diameter.
+/// more in a row is far off at the end than before; or what is off there has another diameter, or
+/// is off in another pass as well.
 bool ends_in_place(const Masked& of, const LinearisationPoint& point) {
   const std::size_t end = point.size();
   std::size_t in_row = 0, longest = 0, used = 0, counted = 0;
@@ -142,9 +143,13 @@ bool ends_in_place(const Masked& of, const LinearisationPoint& point) {
   for (std::size_t i = end; i-- > 0 && std::abs(point.c[i] - point.c[end - 1]) < two_pi; ++counted)
     used += of.mask.used[i] ? 1 : 0;
   if (2 * used >= counted && in_row <= longest) return true;
+  const std::size_t begin = end - std::max(in_row, counted);
+  std::vector<char> excluded(end);
+  for (std::size_t i = 0; i < end; ++i) excluded[i] = of.mask.used[i] ? 0 : 1;
+  if (met_again(std::span(point.passes), point.z, excluded, begin, end) != nullptr) return true;
   if (point.base.face || point.base.tapers) return false;  // off all round if it moves along Z
   std::vector<double> c_rad, z_mm, off_mm;
-  for (std::size_t i = end - std::max(in_row, counted); i < end; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     if (of.mask.used[i]) continue;
     c_rad.push_back(point.c[i]), z_mm.push_back(point.z[i]), off_mm.push_back(of.left_mm[i]);
   }
