@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <optional>
 #include <variant>
@@ -29,6 +30,8 @@ constexpr Threshold jump_among{"among", 200, "readings",
                                "fewer do not show how far neighbours usually differ"};
 constexpr Threshold least_beats{"beats", 3.0, "turns over a pass",
                                 "a line that beats less with the spindle is one with the axis"};
+constexpr Threshold least_beside{"beside", 0.7, "of a line",
+                                 "1 - 3/π², of a line that beats once along the sections"};
 constexpr Threshold enough_angles{"angles", least_angles, "1",
                                   "six take five lobes, the commonest of ground parts, for an "
                                   "eccentricity"};
@@ -62,10 +65,34 @@ bool is_round(const TermValue& term) {
   return wave != nullptr && wave->turns == 0.0;
 }
 
+/// The share of a vibration, as the sections of a part meet it, that no straight axis takes in.
+double beside_axis(const ProbeStream& stream, double frequency_hz) {
+  const auto n = static_cast<double>(stream.size());
+  double middle = 0.0, squares = 0.0;
+  for (const double z : stream.position_mm) middle += z / n;
+  std::complex<double> mean = 0.0, slope = 0.0;
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const auto off = std::polar(1.0, two_pi * frequency_hz * stream.time_s[i] - stream.c_rad[i]);
+    const double z = stream.position_mm[i] - middle;
+    mean += off / n, slope += z * off / n, squares += z * z / n;
+  }
+  return 1.0 - std::norm(mean) - (squares > 0.0 ? std::norm(slope) / squares : 0.0);
+}
+
+/// Whether Z stands still in every pass while it is read.
+bool is_sections(const ProbeStream& stream, const std::vector<Pass>& passes) {
+  return stream.has_position() && !stream.time_s.empty() && !passes.empty() &&
+         std::ranges::all_of(passes, [](const Pass& pass) { return pass.feed_sign == 0; });
+}
+
 /// Whether a term goes with the eccentricity in every pass: it then beats with it so slowly that
 /// the axis takes its amplitude in. So does a line that turns so slowly that it stands for other
 /// slow forms. Without passes, a pattern of one undulation alone does.
-bool goes_with_axis(const TermValue& term, const std::vector<Pass>& passes) {
+bool goes_with_axis(const TermValue& term, const ProbeStream& stream,
+                    const std::vector<Pass>& passes) {
+  if (term.effect && std::holds_alternative<PeriodicInTime>(term.effect->term) &&
+      is_sections(stream, passes))
+    return beside_axis(stream, term.shape.frequency_hz) < least_beside.value;
   if (passes.empty()) return !term.effect && term.pattern.order == 1.0;
   bool turns = false;
   for (const Pass& pass : passes) {
@@ -112,7 +139,7 @@ std::optional<Reason> left_unexplained_of(const ProbeStream&, const Diagnosis& d
 std::optional<Reason> moves_with_axis_of(const ProbeStream& stream, const Diagnosis& diagnosis) {
   const std::vector<Pass> passes = stream.size() > 0 ? find_passes(stream) : std::vector<Pass>{};
   for (const Unexplained& u : diagnosis.unexplained)
-    if (goes_with_axis(u.term, passes))
+    if (goes_with_axis(u.term, stream, passes))
       return Reason{ReasonCode::pattern_with_axis,
                     {},
                     {{"amplitude", u.amplitude.value, "mm"}},
@@ -120,7 +147,7 @@ std::optional<Reason> moves_with_axis_of(const ProbeStream& stream, const Diagno
                     {},
                     next_of(diagnosis)};
   for (const Finding& f : diagnosis.findings)
-    if (goes_with_axis(f.term, passes))
+    if (goes_with_axis(f.term, stream, passes))
       return Reason{ReasonCode::finding_with_axis, {}, {{"turns", least_beats.value}},
                     {{"effect", f.effect()}},      {}, next_of(diagnosis)};
   return {};
@@ -198,7 +225,7 @@ std::optional<Reason> sensor_limit_in(const ProbeStream& stream, const Diagnosis
 
 constexpr Threshold of_left[] = {much_left, too_little};
 constexpr Threshold of_jump[] = {far_jump, jump_among};
-constexpr Threshold of_beats[] = {least_beats};
+constexpr Threshold of_beats[] = {least_beats, least_beside};
 constexpr Threshold of_angles[] = {enough_angles, angles_apart};
 constexpr Threshold of_limit[] = {
     {"at_limit", few_at_a_limit, "readings", "noise puts one or two at an extreme"},

@@ -201,8 +201,9 @@ TEST_F(MachineFeedback, FollowsAMotionOfTheSpindleThatTheFormOfThePartsShows) {
     }
     const auto learned =
         result("cut_" + std::to_string(k) + "/result.json").at("feedback").at("learned");
-    for (const auto& one : learned.value("motion", nlohmann::json::array()))
-      EXPECT_EQ(one.at("order"), 3) << one;
+    const auto motion = learned.value("motion", nlohmann::json::array());
+    EXPECT_EQ(motion.empty(), k < 2) << k;
+    for (const auto& one : motion) EXPECT_EQ(one.at("order"), 3) << one;
   }
 }
 

@@ -59,7 +59,9 @@ TEST_F(SweepForm, IsHeldAgainstWhatDenseReadingsWithoutNoiseShow) {
 }
 
 TEST_F(SweepForm, WithoutABandThereIsNone) {
-  for (const nlohmann::json& one : cells_of("")[0]["rows"])
+  const nlohmann::json cells = cells_of("");
+  ASSERT_FALSE(cells[0]["rows"].empty());
+  for (const nlohmann::json& one : cells[0]["rows"])
     EXPECT_EQ(one["parameter"].get<std::string>().find("RONt"), std::string::npos);
 }
 

@@ -252,7 +252,9 @@ TEST(Bound, IsNotThereWhereItIsBeyondWhatDerivativesSay) {
   scenario.plan.passes[0].end_mm = scenario.plan.passes[0].start_mm;
   scenario.plan.passes[0].revolutions = 20.0;
   scenario.noise.sigma_mm = 0.05;
-  for (const double sd : bound_of(scenario, SurfaceKind::cylinder).sd) EXPECT_TRUE(std::isnan(sd));
+  const Bound bound = bound_of(scenario, SurfaceKind::cylinder);
+  ASSERT_FALSE(bound.sd.empty());
+  for (const double sd : bound.sd) EXPECT_TRUE(std::isnan(sd));
 }
 
 TEST(Bound, IsNotThereWhereTheReadingsDoNotDetermineTheParameters) {
@@ -261,6 +263,7 @@ TEST(Bound, IsNotThereWhereTheReadingsDoNotDetermineTheParameters) {
   scenario.plan.passes[0].end_mm = scenario.plan.passes[0].start_mm;  // one section: no tilt
   scenario.plan.passes[0].revolutions = 20.0;
   const Bound bound = bound_of(scenario, surface_of(scenario.part.kind));
+  ASSERT_FALSE(bound.sd.empty());
   for (const double sd : bound.sd) EXPECT_TRUE(std::isnan(sd));
   EXPECT_EQ(bound.missing, Bound::Missing::not_determined);
 }

@@ -2,6 +2,7 @@
 // What two effects do together is in neither of their columns about the ideal fit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "laws/turned_cylinder.hpp"
@@ -71,6 +72,11 @@ TEST(DelayOfTheProbe, LeavesTheLobesOfAChuckTheirLength) {
     for (const Finding& finding : diagnosis.findings)
       EXPECT_TRUE(finding.effect() == "probe.latency" || finding.effect() == "part.chuck_lobing")
           << finding.effect() << ", seed " << seed;
+    const auto lobes =
+        std::ranges::find(diagnosis.findings, std::string("part.chuck_lobing"), &Finding::effect);
+    ASSERT_NE(lobes, diagnosis.findings.end()) << "seed " << seed;
+    const Estimate& length = lobes->parameter("decay_length");
+    EXPECT_NEAR(length.value, 19.8, length.expanded(3.0)) << "seed " << seed;
     expect_axis_after(scenario, 0.0, 0.0, 44.7, diagnosis);
   }
 }

@@ -86,6 +86,7 @@ TEST(BehindPlay, OfMoreThanXMovesReadsOneValue) {
   const ProbeStream stream = arguments({});
   const LinearisationPoint point = cylinder_that_runs_out(stream);
   const BehindPlay behind = behind_play(point, {}, {}, 0.05);
+  ASSERT_EQ(behind.c_rad.size(), stream.size());
   for (const double side : behind.side) EXPECT_EQ(side, 0.0);
   for (const double c : behind.c_rad) EXPECT_EQ(c, behind.c_rad[0]);
 }

@@ -45,7 +45,7 @@ struct Sampled {
 Sampled sampled(SpectralLine::In in, const LinearisationPoint& point,
                 const Resolution& resolution) {
   Sampled out;
-  if (resolution.sections) return out;
+  if (resolution.sections && in != SpectralLine::In::time) return out;  // Z stands still
   const bool several = !resolution.one_variable;
   if (in == SpectralLine::In::angle) {
     const double step = sampling(point, &PointPart::c) / two_pi;
@@ -175,7 +175,8 @@ std::vector<Scan> scans_of(const Problem& problem) {
     if (in == spiral && of.seen && !same)
       add_patterns(point, of, false, of.another, resolution.harmonics, list);
   }
-  if (const Sampled of = sampled(time, point, resolution); of.seen && of.another)
+  const Sampled of = sampled(time, point, resolution);
+  if (of.seen && of.another && !resolution.sections)
     add_patterns(point, of, true, true, resolution.harmonics, list);
   std::erase_if(list, [](const Scan& s) { return !(s.high > s.low); });
   return list;
