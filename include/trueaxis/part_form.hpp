@@ -54,8 +54,11 @@ struct PartForm {
   std::optional<FormResult> less_motion{};  ///< none: there is no `motion`
   std::optional<FormResult> less_open{};    ///< less both; none: there is no `open`
   std::size_t left_out = 0;                 ///< readings that the diagnosis excluded
-  int carried_upr = 0;                      ///< by 7 readings a wave
-  std::string why_not{};                    ///< why there is no value at all; else empty
+  /// Largest sum of the local forms that the diagnosis found. No surface holds them: RONt, CYLt and
+  /// what else rests on them are then bounds, as with FormResult::swallowed.
+  double local_mm = 0.0;
+  int carried_upr = 0;    ///< by 7 readings a wave
+  std::string why_not{};  ///< why there is no value at all; else empty
   std::vector<FormJudgement> judgements{};
 
   /// Were all that is open form of the part.

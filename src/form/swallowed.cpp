@@ -95,13 +95,19 @@ void withhold_swallowed(FormResult& result) {
   double lost_mm = 0.0;
   for (const SwallowedLobes& one : result.swallowed)
     lost_mm += 2.0 * (1.0 - one.passed) * (one.amplitude_mm + k * one.u_mm);
-  const std::string why = fmt::format("the filter of {:g} UPR suppresses part of the lobes found",
-                                      result.options.high_upr);
+  bound_values(result, lost_mm,
+               fmt::format("the filter of {:g} UPR suppresses part of the lobes found",
+                           result.options.high_upr));
+}
+
+void bound_values(FormResult& result, double lost_mm, const std::string& why) {
+  const double k = result.options.coverage_factor;
   const auto withhold = [&](std::vector<FormValue>& values) {
     for (FormValue& one : values) {
       if (std::ranges::find(resting_on_lobes, one.name) == resting_on_lobes.end()) continue;
       Estimate& e = one.estimate;
-      if (one.unresolved) {
+      if (e.interval) {
+        e.interval->front() = std::max(0.0, e.interval->front() - lost_mm);
         e.interval->back() += lost_mm;
         continue;
       }

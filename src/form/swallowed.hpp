@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "form/section_model.hpp"
@@ -18,5 +19,7 @@ bool is_swallowed(const FormOptions& options, double passed);
 
 /// Takes the values out that rest on what was swallowed, and leaves their bounds.
 void withhold_swallowed(FormResult& result);
+/// The same of what else is not in the surface: each is off by `lost_mm` at most.
+void bound_values(FormResult& result, double lost_mm, const std::string& why);
 
 }  // namespace trueaxis::form

@@ -16,6 +16,13 @@ bool is_form(const Effect* effect) {
   return effect != nullptr && effect->slot == Slot::part && !is_step(effect->term);
 }
 
+LinearisationPoint point_of(const DiagnosedStream& diagnosed, double ball_mm) {
+  const FitResult& fit = diagnosed.diagnosis->named;
+  const std::vector<Clamping> clampings = clampings_of(fit, ball_mm);
+  return linearise_at(diagnosed.stream, clampings, base_of(diagnosed.stream, fit, clampings),
+                      fit.bore);
+}
+
 }  // namespace
 
 std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
@@ -23,10 +30,7 @@ std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
                                           double ball_mm) {
   std::vector<MotionColumns> out;
   if (findings.empty()) return out;
-  const FitResult& fit = diagnosed.diagnosis->named;
-  const std::vector<Clamping> clampings = clampings_of(fit, ball_mm);
-  const LinearisationPoint point = linearise_at(
-      diagnosed.stream, clampings, base_of(diagnosed.stream, fit, clampings), fit.bore);
+  const LinearisationPoint point = point_of(diagnosed, ball_mm);
   for (const Finding* finding : findings) {
     Hypothesis whole = of_effect(*finding->term.effect, finding->term.shape);
     const std::vector<double>& linear = finding->term.linear;
@@ -53,6 +57,18 @@ std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
     out.push_back(std::move(made));
   }
   return out;
+}
+
+std::vector<double> local_forms_mm(const DiagnosedStream& diagnosed, double ball_mm) {
+  std::vector<Hypothesis> local;
+  std::vector<double> amplitudes;
+  for (const Unexplained& one : diagnosed.diagnosis->unexplained) {
+    if (!is_local_form(one)) continue;
+    local.emplace_back().pattern = one.term.pattern;
+    amplitudes.insert(amplitudes.end(), one.term.linear.begin(), one.term.linear.end());
+  }
+  if (local.empty()) return {};
+  return contribution(point_of(diagnosed, ball_mm), local, amplitudes);
 }
 
 FindingIsOf is_of(const Diagnosis& diagnosis, const Finding& finding) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/threads.hpp"
+#include "form/swallowed.hpp"
 #include "job/part_form_steps.hpp"
 #include "trueaxis/error.hpp"
 
@@ -85,6 +86,15 @@ std::vector<std::string> ids_of(const PartReadings& readings, FindingIsOf what) 
   return out;
 }
 
+/// Sum of the local forms that were found, with their U.
+double most_of_local_forms_mm(const Diagnosis& diagnosis, double coverage_factor) {
+  double sum_mm = 0.0;
+  for (const Unexplained& one : diagnosis.unexplained)
+    if (is_local_form(one))
+      sum_mm += std::abs(one.amplitude.value) + one.amplitude.expanded(coverage_factor);
+  return sum_mm;
+}
+
 std::string first_of(const InputError& error) { return error.diagnostics().front().message; }
 
 void assess(Question& question, const FormTask& task, PartForm& out) {
@@ -119,6 +129,10 @@ void assess(Question& question, const FormTask& task, PartForm& out) {
     if (k == 1 && out.less_motion) out.less_motion = question.assess(true, false);
     if (k == 2 && out.less_open) out.less_open = question.assess(true, true);
   });
+  if (!(out.local_mm > 0.0)) return;
+  for (FormResult* form : {&out.probed, out.less_motion ? &*out.less_motion : nullptr,
+                           out.less_open ? &*out.less_open : nullptr})
+    if (form) form::bound_values(*form, out.local_mm, "a local form is not in the surface");
 }
 
 }  // namespace
@@ -138,6 +152,8 @@ PartForm part_form(const DiagnosedStream& part, const FitOptions& fit, const For
     } else {
       Question question(part, datum, fit);
       out.left_out = question.part().left_out();
+      if (part.diagnosis)
+        out.local_mm = most_of_local_forms_mm(*part.diagnosis, fit.coverage_factor);
       out.motion = ids_of(question.part(), FindingIsOf::motion);
       out.open = ids_of(question.part(), FindingIsOf::open);
       assess(question, task, out);

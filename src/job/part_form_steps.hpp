@@ -28,8 +28,15 @@ struct MotionColumns {
 std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
                                           std::span<const Finding* const> findings, double ball_mm);
 
-/// The readings of a stream that count, and what causes do to them that are not, or may not be, of
-/// the part.
+/// Whether a pattern is a bump or a dent of no known cause.
+inline bool is_local_form(const Unexplained& one) {
+  return !one.term.effect && one.term.pattern.kind == Pattern::Kind::bump;
+}
+/// What these do to every reading; empty: there are none.
+std::vector<double> local_forms_mm(const DiagnosedStream& diagnosed, double ball_mm);
+
+/// The readings of a stream that count, without local forms, and what causes do to them that are
+/// not, or may not be, of the part.
 class PartReadings {
  public:
   PartReadings(const DiagnosedStream& given, double ball_mm);

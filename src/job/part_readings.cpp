@@ -24,6 +24,8 @@ PartReadings::PartReadings(const DiagnosedStream& given, double ball_mm) : strea
   for (const Finding& finding : given.diagnosis->findings)
     if (is_of(*given.diagnosis, finding) != FindingIsOf::part) found.push_back(&finding);
   columns_ = motion_columns(given, found, ball_mm);
+  const std::vector<double> local_mm = local_forms_mm(given, ball_mm);
+  for (std::size_t i = 0; i < local_mm.size(); ++i) stream_.reading_mm[i] -= local_mm[i];
   for (const Rejected& one : given.diagnosis->noise.masked)
     if (one.row >= 1 && one.row <= left_out.size()) left_out[one.row - 1] = true;
   left_out_ = static_cast<std::size_t>(std::ranges::count(left_out, true));

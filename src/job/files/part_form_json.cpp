@@ -96,6 +96,7 @@ Json part_form_object(const PartForm& form) {
     json["swallowed"] = swallowed_json(form.probed);
     if (form.probed.surface) json["surface"] = surface_json(*form.probed.surface);
     json["left_out"] = form.left_out;
+    if (form.local_mm > 0.0) json["local_forms"] = with_unit(form.local_mm, "mm");
     json["as_probed"] = case_object(form.probed);
     json["motion"] = form.motion;
     json["open"] = form.open;

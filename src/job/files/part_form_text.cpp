@@ -63,6 +63,17 @@ std::string place_words(const FormResult& form) {
                      form.sections.size() == 1 ? "" : "s");
 }
 
+/// "with local forms of 8.5 µm at most: "
+std::string not_in_surface(const PartForm& form) {
+  std::string text;
+  if (const FormResult& all = form.with_open(); !all.swallowed.empty())
+    text = swallowed_words(all) + "; ";
+  if (form.local_mm > 0.0)
+    text += fmt::format("with local forms of {} µm at most: ",
+                        layout::bound(form.local_mm / mm_per_um));
+  return text;
+}
+
 }  // namespace
 
 bool is_tapered(const FormResult& form) {
@@ -98,8 +109,8 @@ std::string part_form_screen(const PartForm& form, const std::string& name) {
   if (!form.judgements.empty()) return text;
   if (!form.why_not.empty()) return "form   " + of + "not assessed: " + form.why_not + "\n";
   text = "form   " + of;
-  if (const FormResult& all = form.with_open(); !all.swallowed.empty())
-    return text + swallowed_words(all) + "; " + values_text(all) + "\n";
+  if (const FormResult& all = form.with_open(); !all.swallowed.empty() || form.local_mm > 0.0)
+    return text + not_in_surface(form) + values_text(all) + "\n";
   if (form.less_open)
     text += first_value_text(form.with_open()) + ", or " +
             first_value_text(*form.less_open, false) + " if the machine made it ";
@@ -121,8 +132,9 @@ std::string part_form_text(const PartForm& form) {
   const auto line = [&](const std::string& one) { text += layout::wrapped("form        ", one); };
   if (!form.why_not.empty()) line("not assessed: " + form.why_not);
   if (form.why_not.empty()) {
-    line(fmt::format("as probed {} ({}; {})", values_text(form.probed), band_words(form),
-                     place_words(form.probed)));
+    line(fmt::format("as probed {}{} ({}; {})",
+                     form.local_mm > 0.0 ? not_in_surface(form) : std::string(),
+                     values_text(form.probed), band_words(form), place_words(form.probed)));
     if (form.less_motion)
       line(
           fmt::format("less {}: {}", fmt::join(form.motion, ", "), values_text(*form.less_motion)));
