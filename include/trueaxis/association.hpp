@@ -108,6 +108,10 @@ struct AssociateOptions {
 AssociatedFeature associate(std::span<const Point3> points_mm, Element element, Criterion criterion,
                             const AssociateOptions& options = {});
 
+/// Why the points cannot be those of the surface that was associated; empty: they can. A plane,
+/// sphere, cylinder or cone leaves a tenth of the RMS or less, or it is more than a part leaves.
+std::string of_other_element(std::span<const Point3> points_mm, const AssociatedFeature& found);
+
 /// Why `criterion` does not apply to `element`; empty where it does.
 std::string association_objection(Element element, Criterion criterion);
 

@@ -73,6 +73,8 @@ Outcome associated_of(PointText points, const std::string& element_name,
     if (one->result.status == AssociationStatus::too_few ||
         one->result.status == AssociationStatus::degenerate)
       throw InputError(one->points.source, one->result.why);
+    if (const std::string why = of_other_element(one->points.points_mm, one->result); !why.empty())
+      throw InputError(one->points.source, why);
     if (one->result.status == AssociationStatus::converged)
       one->distance_mm = distances_mm(one->points.points_mm, one->result);
     return std::shared_ptr<const Associated>(one);

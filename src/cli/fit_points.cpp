@@ -79,6 +79,8 @@ int FitPoints::execute(const std::string& criterion_name, const Results& results
                  .threads = threads});
   if (result.status == AssociationStatus::too_few || result.status == AssociationStatus::degenerate)
     throw InputError(path, result.why);
+  if (const std::string why = of_other_element(points.points_mm, result); !why.empty())
+    throw InputError(path, why);
   const bool converged = result.status == AssociationStatus::converged;
   results.write(outputs, "--json", [&] { return association_json(result, points); });
   if (converged) {
