@@ -10,7 +10,6 @@ namespace {
 
 constexpr double structural = 0.999;
 constexpr double unlike = 0.2;  // share of the named prediction that is left: what columns bend
-constexpr double implausible = 1e-3;  // of the class: by its size, or as one of many shapes
 
 /// Probabilities by the criteria, and what is too improbable for a class.
 Class settled(const Class& found, const Named& named, std::span<const Cause> causes) {
@@ -25,7 +24,7 @@ Class settled(const Class& found, const Named& named, std::span<const Cause> cau
   std::ranges::stable_sort(out.members, std::ranges::greater{},
                            [](const Class::Member& m) { return m.rival.probability; });
   std::erase_if(out.members, [&](const Class::Member& m) {
-    if (m.rival.probability >= implausible) return false;
+    if (m.rival.probability >= in_no_class) return false;
     out.dropped.push_back({m.cause, m.rival.probability, false});
     return true;
   });

@@ -17,6 +17,9 @@ inline constexpr double told_apart = 3.2897;
 /// Φ(−√t), the most at d² = t: 0.4 % for 7 (Eq. 91).
 inline constexpr double likelihood_tells = 7.0;
 
+/// Probability below which a cause is in no class.
+inline constexpr double in_no_class = 1e-3;
+
 /// Probability of the right name of two at the distance d: Φ(d/2) (Eq. 88).
 double right_name(double d);
 /// Against rival causes at some distances, each as often as it is the cause (Eq. 99).

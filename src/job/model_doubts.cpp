@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "infer/classes.hpp"
 #include "job/checks.hpp"
 #include "job/doubts.hpp"
 #include "measure/passes.hpp"
@@ -44,7 +45,8 @@ bool is_bow(const Finding& finding) {
 }
 
 constexpr Threshold far_out{"moved", 3.0, "of the tolerance", "which is a diameter"};
-constexpr Threshold in_no_class{"probability", 1e-3, "1", "what is less probable is in no class"};
+constexpr Threshold in_no_class{"probability", infer::in_no_class, "1",
+                                "what is less probable is in no class"};
 constexpr Threshold over_stated{"left", 0.5, "of the stated noise", "and 3 u of it"};
 
 /// Of each reference that has one.

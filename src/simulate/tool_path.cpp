@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <complex>
 #include <cstdint>
@@ -55,16 +56,15 @@ Touch touching(const CutProgram& program, double z_centre_mm) {
   return {-side * least, z_centre_mm + nose * std::sin(phi)};
 }
 
-/// Where the nose's centre is when it touches the section at z: bisection, the contact follows the
-/// centre. A face is touched at the centre's own place.
+/// Where the nose's centre is when it touches the section at z; the contact follows the centre. A
+/// face is touched at the centre's own place.
 double centre_touching_at(const CutProgram& program, double z_mm) {
   const double nose = program.tool.nose_radius_mm;
   if (nose == 0.0 || program.target.kind == CutKind::face) return z_mm;
-  double low = z_mm - nose, high = z_mm + nose;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (touching(program, middle).z_mm < z_mm ? low : high) = middle;
-  }
+  std::uintmax_t steps = 200;
+  const auto [low, high] = boost::math::tools::bisect(
+      [&](double middle) { return touching(program, middle).z_mm - z_mm; }, z_mm - nose,
+      z_mm + nose, boost::math::tools::eps_tolerance<double>(), steps);
   return 0.5 * (low + high);
 }
 

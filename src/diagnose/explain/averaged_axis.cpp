@@ -11,6 +11,7 @@
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/local_forms.hpp"
+#include "infer/classes.hpp"
 #include "infer/significance.hpp"
 #include "infer/size_posterior.hpp"
 #include "math/linear_algebra.hpp"
@@ -24,7 +25,6 @@ namespace {
 constexpr double discrepancy = 0.1;
 constexpr double present = 0.2;         // how often a stream has an effect, before it is looked at
 constexpr double moved_in_all = 0.9;    // how often a part that moved did so in all ways
-constexpr double told = 1e-3;           // probability below which a model is not listed
 constexpr double nothing = 1e-2;        // of u: a smaller shift does not count
 constexpr std::size_t most_forms = 48;  // shapes of a local form that are averaged over
 constexpr double finer_steps[] = {0.06, 0.02, 0.007};  // steps about the one that was found
@@ -183,7 +183,7 @@ class Averaging {
 
   void tell(const std::string& effect, const std::string& instead_of, const Alternative& a,
             AveragedAxis& out) const {
-    if (a.probability < told) return;
+    if (a.probability < infer::in_no_class) return;
     const AxisShift moved = axis_shift(problem_.point, a.off, a.covariance);
     out.shares.push_back(
         {effect, instead_of, a.probability, {moved.value_mm, moved.u_mm, "mm", ""}});

@@ -10,6 +10,7 @@
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
+#include "infer/classes.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -48,7 +49,6 @@ Finding finding_of(const Problem& problem, const Model& model, const Joint& join
   return out;
 }
 
-constexpr double excluded = 1e-3;                 // probability, as of any class
 constexpr double ordinary = 3.0, possible = 8.0;  // spreads of the logarithm of a size
 
 /// What no ordinary size would do: where its columns hold, the data tell such a cause, and beyond
@@ -134,7 +134,8 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
 std::optional<Model> with_likeliest_rival(const Model& model, const Explanation& explanation) {
   const auto least = std::ranges::min_element(
       explanation.ambiguous, {}, [](const AmbiguousFinding& f) { return f.found.probability; });
-  if (least == explanation.ambiguous.end() || least->found.probability >= excluded) return {};
+  if (least == explanation.ambiguous.end() || least->found.probability >= infer::in_no_class)
+    return {};
   const ConfounderSet& found = least->found;
   const auto rival = std::ranges::max_element(found.rivals, {}, &Rival::probability);
   if (rival == found.rivals.end()) return {};

@@ -152,6 +152,9 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
   const Projection projection = project(joint.equations.total(), taken);
   const auto n = static_cast<Eigen::Index>(joint.equations.base().size());
   const std::vector<Scan> scans = scans_of(problem);
+  const double level = model.family.single_level(problem.false_alarm);
+  const double needed[] = {infer::required_lambda(1.0, known_sigma, level, seen),
+                           infer::required_lambda(2.0, known_sigma, level, seen)};
   std::vector<Unobservable> out;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Typical& t = all[k];
@@ -191,8 +194,8 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     h.entry.axis_bias_per_unit = {worst, 0.0, "mm/(" + t.unit + ")", ""};
     h.entry.axis_bias_typical = {h.axis_bias_mm, 0.0, "mm", ""};
     h.entry.detectable_unit = t.unit;
-    const double at_threshold = model.family.threshold(problem.false_alarm);
-    const double times = lambda > 0.0 ? std::sqrt(at_threshold / lambda) : beyond_sense;
+    const double times =
+        lambda > 0.0 ? std::sqrt(needed[own.size() < 2 ? 0 : 1] / lambda) : beyond_sense;
     h.entry.detectable =
         times < beyond_sense ? times * t.size : std::numeric_limits<double>::infinity();
     const double share = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;

@@ -10,11 +10,10 @@
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/refit/turned_passes.hpp"
 #include "diagnose/search/coarse_to_fine.hpp"
+#include "infer/classes.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
-
-constexpr double implausible = 1e-3;  // probability, as of any class
 
 bool moves_part(const Hypothesis& h) { return h.effect && is_step(h.effect->term); }
 
@@ -99,7 +98,7 @@ std::optional<DelayInstead> delay_instead(const IdealModel& ideal, const Relinea
   const double worse = rows * std::log(rss_late / rss) +
                        std::log(rows) * (count_of(besides) + 1.0 - count_of(terms) - dates);
   const double probability = 1.0 / (1.0 + std::exp(0.5 * worse));
-  if (!(probability >= implausible)) return {};
+  if (!(probability >= infer::in_no_class)) return {};
   if (!ideal.point.has_time) out.delay_s = std::numeric_limits<double>::quiet_NaN();
   out.rival = {std::string(delay->id), std::sqrt(std::max(rss_late - rss, 0.0)) / as_found.sigma_mm,
                worse, probability, false};

@@ -19,7 +19,6 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t most_starts = 6;  // local forms that a search is begun with
-constexpr double in_the_class = 1e-3;   // probability, as of any class
 
 Model search_with(StepwiseSearch& engine) {
   bool pattern_was_better = false;
@@ -126,7 +125,7 @@ Model best_of(const Problem& problem, std::vector<Model> found) {
   double sum = 0.0;
   for (const Model& model : found) {
     const double likelihood = std::exp(-0.5 * (model.criterion - best.criterion));
-    if (likelihood < in_the_class) break;
+    if (likelihood < infer::in_no_class) break;
     if (!had.empty() && !moves_axis(best) && !moves_axis(model)) continue;
     std::vector<double> effect = effect_of(problem, model);
     const auto is_it = [&](const std::vector<double>& other) {
