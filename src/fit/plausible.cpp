@@ -32,8 +32,7 @@ constexpr double least_for_kurtosis = 100.0, many_digits = 10.0, white_sds = 4.0
 constexpr double dense_step_rad = two_pi / 36.0;  // neighbours meet the same form
 
 double largest_radius_mm(const ProbeStream& stream) {
-  if (stream.kind == StreamKind::face)
-    return stream.position_mm.empty() ? 0.0 : std::abs(range_of(stream.position_mm).high);
+  if (stream.kind == StreamKind::face) return std::abs(range_of(stream.position_mm).high);
   if (stream.indication == Indication::relative) return stream.nominal_radius_mm.value_or(0.0);
   const auto [low, high] = range_of(stream.reading_mm);
   return std::max(std::abs(low), std::abs(high));
