@@ -13,6 +13,7 @@ constexpr double least_mm = 0.01, share = 0.1;  // of the RMS, as of a stream th
 // The largest form of a turned part is 0.14 mm RMS; large parts have more. Eq. 308.
 constexpr double most_mm = 0.5, most_per_size = 1e-3;
 constexpr std::size_t enough = 5000;  // points that tell another element
+constexpr std::size_t fewest = 20;    // three times the parameters of a cone: fewer fit anything
 
 /// Evenly chosen, all if there are few.
 std::vector<Point3> some_of(std::span<const Point3> points_mm) {
@@ -43,7 +44,7 @@ std::string of_other_element(std::span<const Point3> points_mm, const Associated
       fmt::format("the points lie {:.3g} mm RMS off the {}", found.rms_mm, name);
   const std::vector<Point3> some = some_of(points_mm);
   for (const Element other : {Element::plane, Element::sphere, Element::cylinder, Element::cone}) {
-    if (other == found.element) continue;
+    if (other == found.element || points_mm.size() < fewest) continue;
     const AssociatedFeature it = associate(some, other, Criterion::gaussian);
     if (it.status != AssociationStatus::converged || !(it.rms_mm < share * found.rms_mm)) continue;
     return fmt::format("{}, and {:.2g} mm off a {}: they are not those of a {}", off, it.rms_mm,

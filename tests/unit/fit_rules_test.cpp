@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 
 #include "fit/associate.hpp"
 #include "fit/describe.hpp"
@@ -84,30 +83,6 @@ TEST(FitUncertainty, ChipsHardlyCorrelate) {
     products += r * before, squares += r * r, before = r;
   }
   EXPECT_NEAR(found.autocorrelation, products / squares, 0.02);
-}
-
-std::string refusal(const ProbeStream& stream, SurfaceKind surface) {
-  FitOptions options;
-  options.surface = surface;
-  try {
-    fit(stream, options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-TEST(FitStream, ThatIsOfAnotherKindIsRefusedWithWhatItIs) {
-  const ProbeStream lateral = cylinder(48, 2.3, 0.1);
-  EXPECT_NE(refusal(lateral, SurfaceKind::plane).find("columns Z_M,C,X"), std::string::npos);
-  ProbeStream face = lateral;
-  face.kind = StreamKind::face;
-  EXPECT_NE(refusal(face, SurfaceKind::cone).find("--surface plane"), std::string::npos);
-  ProbeStream section = lateral;
-  section.position_mm.clear();
-  EXPECT_NE(refusal(section, SurfaceKind::cone).find("has no Z"), std::string::npos);
-  face.position_mm.clear();
-  EXPECT_NE(refusal(face, SurfaceKind::plane).find("has no X"), std::string::npos);
 }
 
 // U of the radius, or of the one in the middle of a cone; 0 if there is none.

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "fit/plausible.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -36,6 +38,34 @@ bool axis_known(std::size_t rows, double depth_mm) {
 TEST(DrawnFit, HasNoAxisBesideAKeyway) {
   EXPECT_FALSE(axis_known(2880, 2.0));
   EXPECT_TRUE(axis_known(1, 0.2));
+}
+
+std::string refusal(const ProbeStream& stream, SurfaceKind surface) {
+  FitOptions options;
+  options.surface = surface;
+  try {
+    fit(stream, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FitStream, ThatIsOfAnotherKindIsRefusedWithWhatItIs) {
+  ProbeStream lateral;
+  for (int i = 0; i < 48; ++i) {
+    lateral.c_rad.push_back(0.3 * i), lateral.position_mm.push_back(0.8 * i);
+    lateral.reading_mm.push_back(20.0);
+  }
+  EXPECT_NE(refusal(lateral, SurfaceKind::plane).find("columns Z_M,C,X"), std::string::npos);
+  ProbeStream face = lateral;
+  face.kind = StreamKind::face;
+  EXPECT_NE(refusal(face, SurfaceKind::cone).find("--surface plane"), std::string::npos);
+  ProbeStream section = lateral;
+  section.position_mm.clear();
+  EXPECT_NE(refusal(section, SurfaceKind::cone).find("has no Z"), std::string::npos);
+  face.position_mm.clear();
+  EXPECT_NE(refusal(face, SurfaceKind::plane).find("has no X"), std::string::npos);
 }
 
 }  // namespace
