@@ -35,6 +35,9 @@ struct Rival {
   double log_likelihood_ratio = 0.0;  ///< ln(L_finding/L_rival), parameters paid for
   double probability = 0.0;           ///< of this cause, among the class
   bool structural = false;  ///< canonical correlation above 0.999: no amount of data helps
+  /// Size that it has if it is the cause, over the largest that is usual, or over the least if
+  /// smaller; 1: usual, 0: unknown. If d is small, the probability follows from it.
+  double times_usual = 0.0;
 };
 
 /// A cause that was found, with all that explain the same as well.

@@ -29,7 +29,7 @@ std::vector<Point3> datum_points(const PlannedJob& result, std::size_t reference
   const double ball_mm =
       fit.ball_radius_mm > 0.0 ? fit.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
   const PartReadings readings({stream, diagnosed ? &*result.diagnoses[reference] : nullptr},
-                              ball_mm);
+                              ball_mm, true);
   const ProbeStream of_part = readings.less(false);
   std::vector<Point3> points;
   for (std::size_t i = 0; i < of_part.size(); ++i)

@@ -27,8 +27,8 @@ constexpr std::size_t most_to_show = 20'000, most_to_judge = 2'000'000;
 class Question {
  public:
   Question(const DiagnosedStream& part, const DiagnosedStream* datum, const FitOptions& fit)
-      : part_(part, ball_of(part, fit)) {
-    if (datum) datum_.emplace(*datum, ball_of(*datum, fit));
+      : part_(part, ball_of(part, fit), false) {
+    if (datum) datum_.emplace(*datum, ball_of(*datum, fit), true);
     options_.bore = fit.bore;
     options_.ball_radius_mm = ball_of(part, fit);
     options_.coverage_factor = fit.coverage_factor;

@@ -28,18 +28,21 @@ struct MotionColumns {
 std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
                                           std::span<const Finding* const> findings, double ball_mm);
 
-/// Whether a pattern is a bump or a dent of no known cause.
+/// Whether a pattern is a bump or a dent of no known cause. One of all the length is lobes to a
+/// surface.
 inline bool is_local_form(const Unexplained& one) {
-  return !one.term.effect && one.term.pattern.kind == Pattern::Kind::bump;
+  const Pattern& pattern = one.term.pattern;
+  return !one.term.effect && pattern.kind == Pattern::Kind::bump && pattern.length_mm > 0.0;
 }
 /// What these do to every reading; empty: there are none.
 std::vector<double> local_forms_mm(const DiagnosedStream& diagnosed, double ball_mm);
 
-/// The readings of a stream that count, without local forms, and what causes do to them that are
-/// not, or may not be, of the part.
+/// The readings of a stream that count, and what causes do to them that are not, or may not be, of
+/// the part.
 class PartReadings {
  public:
-  PartReadings(const DiagnosedStream& given, double ball_mm);
+  /// @param with_local_forms else they are subtracted
+  PartReadings(const DiagnosedStream& given, double ball_mm, bool with_local_forms);
 
   const ProbeStream& stream() const { return stream_; }
   const std::vector<MotionColumns>& columns() const { return columns_; }

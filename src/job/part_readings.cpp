@@ -17,14 +17,16 @@ void keep(std::vector<T>& column, const std::vector<bool>& left_out) {
 
 }  // namespace
 
-PartReadings::PartReadings(const DiagnosedStream& given, double ball_mm) : stream_(given.stream) {
+PartReadings::PartReadings(const DiagnosedStream& given, double ball_mm, bool with_local_forms)
+    : stream_(given.stream) {
   if (!given.diagnosis) return;
   std::vector<bool> left_out(stream_.size(), false);
   std::vector<const Finding*> found;
   for (const Finding& finding : given.diagnosis->findings)
     if (is_of(*given.diagnosis, finding) != FindingIsOf::part) found.push_back(&finding);
   columns_ = motion_columns(given, found, ball_mm);
-  const std::vector<double> local_mm = local_forms_mm(given, ball_mm);
+  const std::vector<double> local_mm =
+      with_local_forms ? std::vector<double>{} : local_forms_mm(given, ball_mm);
   for (std::size_t i = 0; i < local_mm.size(); ++i) stream_.reading_mm[i] -= local_mm[i];
   for (const Rejected& one : given.diagnosis->noise.masked)
     if (one.row >= 1 && one.row <= left_out.size()) left_out[one.row - 1] = true;

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnose/regression/joint.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/judge.hpp"
 #include "infer/classes.hpp"
+#include "math/linear_algebra.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -27,6 +30,29 @@ bool may_be_bend(const Hypothesis& lobes, const Hypothesis& bend) {
   if (!lobes.effect || !has_free_order(*lobes.effect) || !bend.effect) return false;
   const auto* response = std::get_if<Response>(&bend.effect->term);
   return bends_reading(bend.effect->term) || (response && response->of == Response::Of::hysteresis);
+}
+
+/// How far the size that a cause would have is from the usual: Rival::times_usual.
+double times_usual(const Hypothesis& h, const Columns& its, const Projection& beside) {
+  if (!h.effect) return 0.0;
+  const Eigen::VectorXd fitted =
+      linear::shortest_solution(beside.gram(its, its), beside.gram(its, {0}).col(0)).x;
+  std::map<const EffectParameter*, double> squares;
+  const auto names = linear_parameters(h.effect->term, h.shape);
+  for (std::size_t j = 0; j < its.size(); ++j)
+    squares[size_for(*h.effect, names[h.free.empty() ? j : h.free[j]])] +=
+        std::pow(fitted(static_cast<Eigen::Index>(j)), 2);
+  double farthest = 0.0;
+  for (const auto& [usual, square] : squares) {
+    if (usual == nullptr || !(usual->high > 0.0) || !(square > 0.0)) continue;
+    const double size = std::sqrt(square);
+    const double times = size > usual->high  ? size / usual->high
+                         : size < usual->low ? size / usual->low
+                                             : 1.0;
+    if (farthest == 0.0 || std::abs(std::log(times)) > std::abs(std::log(farthest)))
+      farthest = times;
+  }
+  return farthest;
 }
 
 }  // namespace
@@ -101,6 +127,8 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
   for (const Class::Member& m : found.members) {
     out.members.push_back(causes[place[m.cause]]);
     out.rivals.push_back(m.rival);
+    out.rivals.back().times_usual =
+        times_usual(out.members.back().hypothesis, rivals[m.cause].columns, beside);
   }
   for (const Class::Dropped& d : found.dropped)
     out.dropped.push_back({causes[place[d.cause]], d.probability, d.told});

@@ -23,7 +23,8 @@ Finding finding_from(const Json& json, std::span<const Effect> own_effects) {
   for (const Json& rival : json.at("rivals")) {
     finding.rivals.push_back({rival.at("effect"), number_from(rival.at("distance")),
                               number_from(rival.at("log_likelihood_ratio")),
-                              number_from(rival.at("probability")), rival.at("structural")});
+                              number_from(rival.at("probability")), rival.at("structural"),
+                              rival.value("times_usual", 0.0)});
   }
   for (const auto& [name, estimate] : json.at("parameters").items())
     finding.parameters.push_back({name, estimate_from(estimate)});

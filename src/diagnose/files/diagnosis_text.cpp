@@ -155,13 +155,20 @@ std::string finding_parameters(const Finding& finding, double coverage_factor) {
 }
 
 std::string finding_class(const Finding& finding) {
+  constexpr double surprising = 0.02, unusual = 1.5;
   if (finding.rivals.empty()) return finding.effect();
   const auto member = [](const std::string& id, double p) {
     return id + (std::isfinite(p) ? " (" + probability(p) + ")" : "");
   };
   std::string text = member(finding.effect(), finding.probability);
-  for (const Rival& rival : finding.rivals)
+  for (const Rival& rival : finding.rivals) {
     text += " or " + member(rival.effect, rival.probability);
+    if (rival.probability < surprising && rival.times_usual > unusual)
+      text += fmt::format(", then {:.2g} times as large as usual", rival.times_usual);
+    if (rival.probability < surprising && rival.times_usual > 0.0 &&
+        rival.times_usual < 1.0 / unusual)
+      text += fmt::format(", then {:.2g} of the least that is usual", rival.times_usual);
+  }
   return text + ": the data cannot tell";
 }
 

@@ -10,11 +10,13 @@ Json interval(const Interval& i, const char* unit) {
 }
 
 Json rival_object(const Rival& rival) {
-  return {{"effect", rival.effect},
-          {"distance", number(rival.distance)},
-          {"log_likelihood_ratio", number(rival.log_likelihood_ratio)},
-          {"probability", number(rival.probability)},
-          {"structural", rival.structural}};
+  Json json{{"effect", rival.effect},
+            {"distance", number(rival.distance)},
+            {"log_likelihood_ratio", number(rival.log_likelihood_ratio)},
+            {"probability", number(rival.probability)},
+            {"structural", rival.structural}};
+  if (rival.times_usual > 0.0) json["times_usual"] = number(rival.times_usual);
+  return json;
 }
 
 }  // namespace
