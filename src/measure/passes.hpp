@@ -28,7 +28,8 @@ struct Pass {
 std::vector<Pass> find_passes(const ProbeStream& stream);
 
 /// Another pass of the set-up that has most of its readings excluded at the place of those that are
-/// excluded among [begin, end): the surface is so there, as no slip comes twice. Null: none has.
+/// excluded among [begin, end): the surface is so there, as no slip comes twice. Null: none has, or
+/// one has most of them used, as before a slip.
 /// @param place_mm, excluded a value a reading; `place_mm` may be empty
 template <typename Places, typename Excluded>
 const Pass* met_again(std::span<const Pass> passes, const Places& place_mm,
@@ -40,17 +41,20 @@ const Pass* met_again(std::span<const Pass> passes, const Places& place_mm,
   const auto here = std::ranges::find_if(
       passes, [&](const Pass& pass) { return pass.begin < end && end <= pass.end; });
   if (!(low < high) || here == passes.end()) return nullptr;
-  const auto found = std::ranges::find_if(passes, [&](const Pass& pass) {
-    if (pass.begin == here->begin || pass.setup != here->setup) return false;
+  const Pass* found = nullptr;
+  for (const Pass& pass : passes) {
+    if (pass.begin == here->begin || pass.setup != here->setup) continue;
     std::size_t there = 0, out = 0;
     for (std::size_t i = pass.begin; i < pass.end; ++i) {
       if (place_mm[i] < low || place_mm[i] > high) continue;
       ++there;
       out += excluded[i] ? 1 : 0;
     }
-    return there >= least && 2 * out >= there;
-  });
-  return found == passes.end() ? nullptr : &*found;
+    if (there < least) continue;
+    if (2 * out < there) return nullptr;
+    found = &pass;
+  }
+  return found;
 }
 
 }  // namespace trueaxis
