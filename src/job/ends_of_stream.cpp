@@ -125,7 +125,9 @@ std::optional<Reason> left_out_at_end(const ProbeStream& stream, const Diagnosis
   if (stream.size() == 0) return {};
   const LeftOut of(stream, diagnosis);
   const bool round = diagnosis.baseline.surface == SurfaceKind::cylinder;
-  for (const Pass& pass : of.passes) {
+  std::vector<Pass> runs = of.passes;
+  runs.push_back({.begin = 0, .end = stream.size()});  // a last pass may be excluded as a whole
+  for (const Pass& pass : runs) {
     const std::size_t size = pass.end - pass.begin;
     const auto unproven = [&](std::size_t begin, std::size_t end) {
       if (begin == end) return false;

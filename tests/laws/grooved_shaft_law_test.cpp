@@ -153,6 +153,25 @@ TEST(UndercutShaft, ACutAtTheLastEndOfAConeMayBeAMove) {
   EXPECT_FALSE(why) << words_of(*why);
 }
 
+// The 16 readings of a capture at rest were "a keyway or a hole", and the axis was 87 µm off, U 1.
+TEST(SlippedCone, IsNotKnownIfOnlyACaptureAtRestHasItsPlace) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Scenario scenario = probed_part(PartKind::cone);
+    scenario.seed = seed, scenario.noise.sigma_mm = 0.001;
+    PlannedPass& out = scenario.plan.passes[0];
+    const double middle_mm = 0.5 * (out.start_mm + out.end_mm);
+    const double ends_s = simulate(scenario).time_s.back();
+    PlannedPass still = out;
+    still.start_mm = still.end_mm = middle_mm, still.speed_rpm = 0.0;
+    still.duration_s = 4.0, still.rate_hz = 4.0, still.pause_s = 2.0;
+    scenario.plan.passes.push_back(still);
+    scenario.effects = {
+        {"part.slip",
+         {{"time_s", ends_s + 1.0}, {"dx_mm", -0.076}, {"dy_mm", -0.043}, {"turn_rad", 0.0}}}};
+    EXPECT_TRUE(doubt_of_cone(simulate(scenario))) << seed;
+  }
+}
+
 TEST(SlottedShaft, HasTheAxisOfItsLands) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SCOPED_TRACE(seed);
