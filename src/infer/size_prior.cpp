@@ -17,6 +17,7 @@ constexpr double ends_of_range = 3.92;  // widths of a normal law that hold 95 %
 constexpr double least_spread = 0.7;    // of ln: no range of a handbook is sharper than that
 constexpr double absorbed = 1e-9;       // share of a column below which nothing is left
 constexpr double far = 3.0;             // spreads: sizes beyond are extraordinary
+constexpr double no_weight = 1e-9;      // of scales that are not looked at
 
 /// Scales in spreads about the median, and their weights: log-normal, with a tail that lets an
 /// extraordinary part be what it is.
@@ -33,12 +34,53 @@ constexpr std::array<Node, 9> nodes{{{-2.0, 0.054},
                                      {6.0, 1e-5},
                                      {8.0, 1e-6}}};
 
+/// The scale of a last pair over that of the first, in their own spreads.
+constexpr std::array<Node, 7> ratios{{{-2.0, 0.054},
+                                      {-1.33, 0.125},
+                                      {-0.67, 0.2},
+                                      {0.0, 0.242},
+                                      {0.67, 0.2},
+                                      {1.33, 0.125},
+                                      {2.0, 0.054}}};
+
 /// A term's columns after others, and the residual of the readings without it.
 struct Beside {
   const Eigen::MatrixXd& gram;
   const Eigen::VectorXd &right, &norm2;
   double rss, freedom;
 };
+
+/// The columns in units of their scales, which are up to a common factor, along the axes of their
+/// normal matrix.
+struct Scaled {
+  SmallVector scale, values, along;
+  Small axes;
+  double floor = 0.0;     ///< of a value: below it nothing of the column is left
+  double log_weight = 0;  ///< of the scales
+
+  Scaled(const Beside& beside, const SmallVector& scales, double weight)
+      : scale(scales), log_weight(std::log(weight)) {
+    const Small scaled = scale.asDiagonal() * beside.gram * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Small> eigen(scaled);
+    values = eigen.eigenvalues(), axes = eigen.eigenvectors();
+    along = axes.transpose() * (scale.asDiagonal() * beside.right);
+    floor = absorbed * scale.cwiseProduct(scale).dot(beside.norm2);
+  }
+  bool is_left(Eigen::Index j) const { return values(j) > floor; }
+};
+
+/// Scales of a term, one for all columns or, for the last pair, one of several ratios.
+std::vector<Scaled> scaled_of(const SizePrior& prior, const Beside& beside,
+                              const SmallVector& scale) {
+  if (!(prior.spread_of_last > 0.0)) return {Scaled(beside, scale, 1.0)};
+  std::vector<Scaled> out;
+  for (const Node& ratio : ratios) {
+    SmallVector with = scale;
+    with.tail(2) *= std::exp(prior.spread_of_last * ratio.at);
+    out.emplace_back(beside, with, ratio.weight);
+  }
+  return out;
+}
 
 Weighed weighed(const SizePrior& prior, const Beside& beside, std::vector<SizePart>* parts) {
   const auto& [gram, right, norm2, rss, freedom] = beside;
@@ -52,18 +94,14 @@ Weighed weighed(const SizePrior& prior, const Beside& beside, std::vector<SizePa
                : norm2(j) > 0.0      ? std::sqrt(first_variance * freedom / norm2(j))
                                      : 0.0;
   }
-  const Small scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Small> eigen(scaled);
-  const SmallVector along = eigen.eigenvectors().transpose() * (scale.asDiagonal() * right);
-  const double floor = absorbed * (scale.cwiseProduct(scale)).dot(norm2);
+  const std::vector<Scaled> scaled = scaled_of(prior, beside, scale);
   double gain = 0.0;
   for (Eigen::Index j = 0; j < n; ++j)
-    if (eigen.eigenvalues()(j) > floor) gain += along(j) * along(j) / eigen.eigenvalues()(j);
+    if (scaled.front().is_left(j))
+      gain += scaled.front().along(j) * scaled.front().along(j) / scaled.front().values(j);
   const double variance =
       std::max(rss - gain, 1e-12 * rss) / std::max(freedom - static_cast<double>(n), 1.0);
 
-  std::array<double, nodes.size() + 1> criterion{};
-  double best = 1e300;
   auto count = known ? nodes.size() : 1;
   while (count > 1 && !prior.allows(prior.scale(nodes[count - 1].at))) --count;
   const bool stated = known && prior.stated > 0.0;
@@ -76,52 +114,60 @@ Weighed weighed(const SizePrior& prior, const Beside& beside, std::vector<SizePa
     if (stated && k == 0) return 1.0 - prior.doubt;
     return prior.doubt * nodes[stated ? k - 1 : k].weight;
   };
-  for (std::size_t k = 0; k < count; ++k) {
+  const auto criterion_of = [&](const Scaled& at, std::size_t k) {
     double shrunk = 0.0, widths = 0.0;
     for (Eigen::Index j = 0; j < n; ++j) {
-      if (!(eigen.eigenvalues()(j) > floor)) continue;
-      const double value = eigen.eigenvalues()(j) + variance / factor2(k);
-      shrunk += along(j) * along(j) / value;
+      if (!at.is_left(j)) continue;
+      const double value = at.values(j) + variance / factor2(k);
+      shrunk += at.along(j) * at.along(j) / value;
       widths += std::log(value * factor2(k) / variance);
     }
-    criterion[k] = freedom * std::log(std::max(1.0 - shrunk / rss, 1e-12)) + widths;
-    if (known) criterion[k] -= 2.0 * std::log(weight_of(k));
-    best = std::min(best, criterion[k]);
-  }
+    const double out = freedom * std::log(std::max(1.0 - shrunk / rss, 1e-12)) + widths;
+    return known ? out - 2.0 * std::log(weight_of(k)) - 2.0 * at.log_weight : out;
+  };
+  std::array<std::array<double, nodes.size() + 1>, ratios.size()> criterion{};
+  double best = 1e300;
+  for (std::size_t r = 0; r < scaled.size(); ++r)
+    for (std::size_t k = 0; k < count; ++k)
+      best = std::min(best, criterion[r][k] = criterion_of(scaled[r], k));
+
   Weighed out;
-  double sum = 0.0, inverse2 = 0.0;
-  SmallVector first = SmallVector::Zero(n), second = SmallVector::Zero(n);
-  Small outer = Small::Zero(n, n);
-  const Small back = scale.asDiagonal() * Small(eigen.eigenvectors());
-  for (std::size_t k = 0; k < count; ++k) {
-    const double weight = std::exp(-0.5 * (criterion[k] - best));
-    SmallVector mean = SmallVector::Zero(n), own(n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const double value = std::max(eigen.eigenvalues()(j), 0.0) + variance / factor2(k);
-      if (eigen.eigenvalues()(j) > floor) mean(j) = along(j) / value;
-      own(j) = variance / value;
-      second(j) += weight * variance / value;
+  double sum = 0.0;
+  Eigen::VectorXd first = Eigen::VectorXd::Zero(n), precision = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd second = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t r = 0; r < scaled.size(); ++r) {
+    const Scaled& at = scaled[r];
+    const Small back = at.scale.asDiagonal() * at.axes;
+    SmallVector mean_along = SmallVector::Zero(n), own = SmallVector::Zero(n);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double weight = std::exp(-0.5 * (criterion[r][k] - best));
+      if (weight < no_weight && scaled.size() > 1) continue;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const double value = std::max(at.values(j), 0.0) + variance / factor2(k);
+        mean_along(j) = at.is_left(j) ? at.along(j) / value : 0.0;
+        own(j) = variance / value;
+      }
+      const SmallVector mean = back * mean_along;
+      const Small covariance = back * own.asDiagonal() * back.transpose();
+      first += weight * mean;
+      second += weight * (mean * mean.transpose() + covariance);
+      for (Eigen::Index j = 0; j < n; ++j)
+        if (at.scale(j) > 0.0)
+          precision(j) += weight * variance / (factor2(k) * at.scale(j) * at.scale(j));
+      sum += weight;
+      if (parts) parts->push_back({weight, mean, covariance});
     }
-    first += weight * mean;
-    outer += weight * (mean * mean.transpose());
-    inverse2 += weight / factor2(k);
-    sum += weight;
-    if (parts) parts->push_back({weight, back * mean, back * own.asDiagonal() * back.transpose()});
   }
   out.criterion = best - 2.0 * std::log(sum);
-  const SmallVector mean = first / sum;
-  const Small spread = (outer / sum - mean * mean.transpose()) + Small((second / sum).asDiagonal());
   if (parts)
     for (SizePart& part : *parts) part.weight /= sum;
-  out.mean = back * mean;
+  out.mean = first / sum;
   out.possible = prior.allows(out.mean);
   const Eigen::VectorXd most = prior.scale(far);
   for (Eigen::Index j = 0; j < n; ++j)
     out.extraordinary |= most(j) > 0.0 && std::abs(out.mean(j)) > most(j);
-  out.covariance = back * spread * back.transpose();
-  out.precision = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index j = 0; j < n; ++j)
-    if (scale(j) > 0.0) out.precision(j) = variance * inverse2 / sum / (scale(j) * scale(j));
+  out.covariance = second / sum - out.mean * out.mean.transpose();
+  out.precision = precision / sum;
   return out;
 }
 

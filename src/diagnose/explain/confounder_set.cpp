@@ -6,6 +6,7 @@
 #include <map>
 
 #include "diagnose/regression/joint.hpp"
+#include "diagnose/explain/shared_scale.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/judge.hpp"
 #include "infer/classes.hpp"
@@ -15,13 +16,16 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-/// Whether the named form, about a place on the axis that was fitted, is a special case of a rival
-/// cause's: lobes that grow along the part.
+constexpr double farthest = 3.0;  // spreads of a size
+
+/// Whether the named form is a special case of a rival cause's, lobes that grow along the part, or
+/// nearly: a form about a place on the axis that was fitted, or lobes that decay.
 bool is_case_of(const Hypothesis& named, const Hypothesis& rival) {
-  const auto* lever = named.effect ? std::get_if<Harmonic>(&named.effect->term) : nullptr;
+  const auto* one = named.effect ? std::get_if<Harmonic>(&named.effect->term) : nullptr;
   const auto* lobes = std::get_if<Harmonic>(&rival.effect->term);
-  return lever && lobes && lever->envelope == Harmonic::Envelope::lever && !named.free.empty() &&
-         lobes->envelope == Harmonic::Envelope::growing && rival.shape.order == named.shape.order;
+  return one && lobes && lobes->envelope == Harmonic::Envelope::growing && !named.free.empty() &&
+         rival.shape.order == named.shape.order &&
+         (one->envelope == Harmonic::Envelope::lever || one->envelope == Harmonic::Envelope::jaws);
 }
 
 /// Lobes that keep a phase with the eccentricity may be just what a bend of the sensor or a play
@@ -32,14 +36,26 @@ bool may_be_bend(const Hypothesis& lobes, const Hypothesis& bend) {
   return bends_reading(bend.effect->term) || (response && response->of == Response::Of::hysteresis);
 }
 
+Eigen::VectorXd size_of(const Columns& its, const Projection& beside) {
+  return linear::shortest_solution(beside.gram(its, its), beside.gram(its, {0}).col(0)).x;
+}
+
+/// The first pair of a cause in spreads of its prior about the median, at most as far as sizes are
+/// ordinary; 0: it has no such size.
+double spreads_of(const Hypothesis& h, const Eigen::VectorXd& fitted) {
+  if (!h.effect || !origin_of(*h.effect) || fitted.size() < 2) return 0.0;
+  const SizePrior prior = size_prior(h);
+  const double size = fitted.head(2).norm(), median = prior.median.head(2).norm();
+  if (!(size > 0.0 && median > 0.0)) return 0.0;
+  return std::clamp(std::log(size / median) / prior.spread, -farthest, farthest);
+}
+
 /// How far the size that a cause would have is from the usual: Rival::times_usual.
-double times_usual(const Hypothesis& h, const Columns& its, const Projection& beside) {
+double times_usual(const Hypothesis& h, const Eigen::VectorXd& fitted) {
   if (!h.effect) return 0.0;
-  const Eigen::VectorXd fitted =
-      linear::shortest_solution(beside.gram(its, its), beside.gram(its, {0}).col(0)).x;
   std::map<const EffectParameter*, double> squares;
   const auto names = linear_parameters(h.effect->term, h.shape);
-  for (std::size_t j = 0; j < its.size(); ++j)
+  for (std::size_t j = 0; j < static_cast<std::size_t>(fitted.size()); ++j)
     squares[size_for(*h.effect, names[h.free.empty() ? j : h.free[j]])] +=
         std::pow(fitted(static_cast<Eigen::Index>(j)), 2);
   double farthest = 0.0;
@@ -77,6 +93,7 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
 
   // The search has weighed the named one against all others jointly; its own refined form leads.
   ConfounderSet out;
+  Columns named_columns = own;
   std::vector<Cause> rivals;
   std::vector<std::size_t> place;
   for (std::size_t k = 0; k < causes.size(); ++k) {
@@ -85,14 +102,19 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
     if (is_case_of(named, c.hypothesis)) {
       const Score all = score(beside, its);
       c.gain = all.gain, c.rank = all.rank;
-      c.criterion = std::min(c.criterion, criterion_as(c.hypothesis, its, named, own, beside,
-                                                       joint.equations.count()));
+      const double worse = static_cast<double>(joint.equations.count() - beside.rank) *
+                           std::log((beside.rss - all.gain) /
+                                    std::max(beside.rss - score(beside, own).gain, 1e-300));
+      c.criterion = std::min(c.criterion, std::max(worse, 0.0) +
+                                              criterion_as(c.hypothesis, its, named, own, beside,
+                                                           joint.equations.count()));
     }
     if (c.hypothesis.effect != named.effect) {
       rivals.push_back({c.hypothesis.id(), its, c.gain, c.rank, c.criterion});
       place.push_back(k);
     } else if (out.members.empty()) {
       out.members.push_back(c);
+      named_columns = its;
     }
   }
   if (out.members.empty()) {  // none of its own: it stays as it is
@@ -124,11 +146,15 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
       joint.sigma_mm * joint.sigma_mm,
       static_cast<double>(joint.equations.count() - joint.solution.rank));
   out.probability = found.probability;
+  out.spreads.push_back(spreads_of(out.members.front().hypothesis,
+                                   size_of(named_columns, beside)));
   for (const Class::Member& m : found.members) {
     out.members.push_back(causes[place[m.cause]]);
+    const Hypothesis& member = out.members.back().hypothesis;
+    const Eigen::VectorXd size = size_of(rivals[m.cause].columns, beside);
+    out.spreads.push_back(spreads_of(member, size));
     out.rivals.push_back(m.rival);
-    out.rivals.back().times_usual =
-        times_usual(out.members.back().hypothesis, rivals[m.cause].columns, beside);
+    out.rivals.back().times_usual = times_usual(member, size);
   }
   for (const Class::Dropped& d : found.dropped)
     out.dropped.push_back({causes[place[d.cause]], d.probability, d.told});
@@ -149,6 +175,7 @@ void narrow(ConfounderSet& found, double twice_log_ratio) {
   }
   found.probability = both;
   found.members.erase(found.members.begin() + 1 + (at - found.rivals.begin()));
+  found.spreads.erase(found.spreads.begin() + 1 + (at - found.rivals.begin()));
   found.rivals.erase(at);
 }
 

@@ -7,6 +7,7 @@
 #include "base/threads.hpp"
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/explain/describe.hpp"
+#include "diagnose/explain/shared_scale.hpp"
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
@@ -123,10 +124,13 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
     if (!has_class(model.terms[t], fit.problem())) continue;
     ConfounderSet found = classes[t];
     if (timing && timing->term == t) narrow(found, timing->twice_log_ratio);
+    out.ambiguous.push_back({t, std::move(found)});
+  }
+  share_scales(out.ambiguous);
+  for (const auto& [t, found] : out.ambiguous) {
     out.findings.push_back(finding_of(fit.problem(), model, joint, found, t));
     if (!fit.problem().point.base.face)
       add_improbable(fit.problem(), joint, found, t, out.improbable);
-    out.ambiguous.push_back({t, std::move(found)});
   }
   return out;
 }

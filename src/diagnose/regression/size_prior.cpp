@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -36,6 +37,14 @@ double most_of_wave(const Hypothesis& h) {
   const double r = h.shape.ball_radius_mm, half_mm = 0.5 * std::abs(h.shape.period_mm);
   if (!wave || wave->port != TermPort::normal || !(r > half_mm)) return 0.0;
   return 0.5 * (r - std::sqrt(r * r - half_mm * half_mm));
+}
+
+/// Lobes and their growth, a tilt and a radial motion: neither tells how large the other is.
+bool has_two_sizes(const Hypothesis& h) {
+  const auto* harmonic = std::get_if<Harmonic>(&h.effect->term);
+  return harmonic && h.columns() == 4 &&
+         (harmonic->envelope == Harmonic::Envelope::growing ||
+          harmonic->envelope == Harmonic::Envelope::lever);
 }
 
 }  // namespace
@@ -81,6 +90,7 @@ SizePrior size_prior(const Hypothesis& h) {
     out.least = out.least.cwiseMax(-most_mm);
   }
   out.spread *= h.effect->size_spread;
+  if (has_two_sizes(h)) out.spread_of_last = std::numbers::sqrt2 * out.spread;
   if (h.effect->stated && count == 1 && out.median(0) > 0.0) {
     out.stated = std::max(h.effect->stated->u / out.median(0), exact);
     out.doubt = wrong_statement;
