@@ -51,4 +51,10 @@ struct ExtremeElement {
 ExtremeElement extreme_element(const Placed& gaussian, const PointCloud& cloud, Criterion criterion,
                                int max_iterations);
 
+/// The least sum of squares among the elements outside of the material, all points on its side
+/// (Eq. 254): what ISO 5459 takes for a datum that is not a Chebyshev one. Contacts carry the
+/// multipliers of the mean square; `h` is the largest distance beyond, 0 but for rounding.
+ExtremeElement constrained_element(const Placed& gaussian, const PointCloud& cloud,
+                                   bool material_inside, int max_iterations);
+
 }  // namespace trueaxis

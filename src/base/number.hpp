@@ -136,4 +136,7 @@ inline std::string exact_text(double value) {
   return text;
 }
 
+/// A place in mm for messages: to a hundredth, never −0.
+inline double hundredths(double mm) { return std::round(100.0 * mm) / 100.0 + 0.0; }
+
 }  // namespace trueaxis

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -47,5 +48,8 @@ inline std::string lower_case(std::string_view text) {
   for (char& c : out) c = lower_case(c);
   return out;
 }
+
+/// Levenshtein's distance: letters to change, put in or take out; for "did you mean".
+std::size_t edit_distance(std::string_view from, std::string_view to);
 
 }  // namespace trueaxis

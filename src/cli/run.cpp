@@ -12,7 +12,6 @@
 #include "base/diagnostics.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/run_machine.hpp"
 #include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"

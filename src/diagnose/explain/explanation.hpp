@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/refit/relinearised_fit.hpp"
 #include "diagnose/search/coarse_to_fine.hpp"
+#include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -27,5 +29,9 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
 /// The model with a rival cause in the place of a term that it all but excludes about the part: the
 /// search named it about the ideal fit. None: every cause is in its own class.
 std::optional<Model> with_likeliest_rival(const Model& model, const Explanation& explanation);
+
+/// A cause that is more than 20 times as large as the largest size of every cause in its class;
+/// empty: there is none. A cause whose size is not a length counts as possible, and so does a slip.
+std::string implausible_size(const Diagnosis& diagnosis);
 
 }  // namespace trueaxis::diagnose_detail
