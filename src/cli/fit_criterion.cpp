@@ -55,8 +55,7 @@ int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions&
   results.say("--json", "trueaxis.association");
   results.say("--residuals", "trueaxis.distances");
   Outputs outputs(results.force);
-  outputs.reads(stream.path);
-  results.name_to(outputs);
+  results.name_to(outputs, {stream.path});
   outputs.check();
   const ProbeStream readings = stream.read();
   expect_one_surface(readings, surface_from_id(association.surface), RangesAs::options);
