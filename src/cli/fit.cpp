@@ -8,7 +8,6 @@
 #include "base/counted.hpp"
 #include "cli/checked_fit.hpp"
 #include "cli/commands.hpp"
-#include "cli/fit_criterion.hpp"
 #include "cli/fit_points.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"

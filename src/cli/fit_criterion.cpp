@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/fit_criterion.hpp"
-
 #include <algorithm>
 #include <iostream>
 
 #include "associate/files/stream_association.hpp"
 #include "cli/checked_fit.hpp"
+#include "cli/fit_points.hpp"
 #include "cli/guarded.hpp"
 #include "cli/results.hpp"
 #include "format/outputs.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "recording/import.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -15,7 +17,6 @@
 #include "format/shell.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/starter.hpp"
-#include "recording/read_out.hpp"
 
 namespace trueaxis::cli {
 namespace {

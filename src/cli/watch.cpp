@@ -21,7 +21,6 @@
 #include "format/outputs.hpp"
 #include "job/files/stream_job.hpp"
 #include "live/files/arriving_text.hpp"
-#include "live/files/live_text.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "platform/arriving_bytes.hpp"
 #include "platform/terminal.hpp"

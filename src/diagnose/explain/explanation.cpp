@@ -9,7 +9,6 @@
 
 #include "base/threads.hpp"
 #include "diagnose/explain/confounder_set.hpp"
-#include "diagnose/explain/describe.hpp"
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
