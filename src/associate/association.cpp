@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "associate/constrained_element.hpp"
 #include "associate/distance_kernel.hpp"
 #include "associate/extreme_element.hpp"
-#include "associate/gaussian.hpp"
 #include "associate/least_squares.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"

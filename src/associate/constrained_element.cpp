@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "associate/constrained_element.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

@@ -4,9 +4,41 @@
 #include <string>
 #include <vector>
 
-#include "associate/minimax.hpp"
+#include "associate/placed.hpp"
+#include "associate/point_cloud.hpp"
 
 namespace trueaxis {
+
+/// Which side of the points counts: sign × distance is made least where it is largest.
+struct Sides {
+  bool outer = true, inner = true;
+  /// The last motion of the shape, its size, is not moved: it follows from the largest value.
+  bool size_follows = false;
+};
+Sides sides_of(Shape shape, Criterion criterion);
+std::size_t free_motions(Shape shape, const Sides& sides);
+
+/// Where the largest value h of a few points is least, or where the search for it ended.
+struct Minimax {
+  struct Contact {
+    std::size_t point = 0;
+    int sign = 1;
+    double distance = 0.0, multiplier = 0.0;
+  };
+  Placed placed;
+  double h = 0.0;
+  std::vector<Contact> contacts{};
+  double stationarity = 0.0;  ///< |Σ λ s ∇d|
+  double gap = 0.0;           ///< of the linear program in a box as large as the cloud
+  int iterations = 0;
+  bool converged = false;
+  bool runs_away = false;  ///< the element grows without bound
+};
+
+/// Sequential linear programming in a box that follows its success, each step bettered by Newton's
+/// on the points that hold it up (Eqs. 249, 250): quadratic convergence with any number of them.
+Minimax minimax(const Placed& start, const PointCloud& cloud, const Sides& sides,
+                int max_iterations);
 
 /// The furthest points of every stretch of the cloud, outside and inside.
 struct Furthest {
@@ -50,5 +82,11 @@ struct ExtremeElement {
 /// added until there is none (Eq. 251).
 ExtremeElement extreme_element(const Placed& gaussian, const PointCloud& cloud, Criterion criterion,
                                int max_iterations);
+
+/// The least sum of squares among the elements outside of the material, all points on its side
+/// (Eq. 254): what ISO 5459 takes for a datum that is not a Chebyshev one. Contacts carry the
+/// multipliers of the mean square; `h` is the largest distance beyond, 0 but for rounding.
+ExtremeElement constrained_element(const Placed& gaussian, const PointCloud& cloud,
+                                   bool material_inside, int max_iterations);
 
 }  // namespace trueaxis

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "associate/gaussian.hpp"
-
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "associate/distance_kernel.hpp"
+#include "associate/least_squares.hpp"
 #include "associate/placed.hpp"
 #include "associate/point_cloud.hpp"
 #include "math/linear_algebra.hpp"

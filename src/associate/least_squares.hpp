@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "associate/placed.hpp"
 #include "associate/point_cloud.hpp"
 
@@ -29,5 +31,17 @@ LeastSquares least_squares(const Placed& start, const PointCloud& cloud, int max
 /// What turns a step of each motion into mm at the far end of the points: 1 of a shift or size, the
 /// length of the cloud of an angle.
 Parameters step_lengths(Shape shape, const PointCloud& cloud);
+
+/// The Gaussian element of points that are not degenerate, and why there is none where `why` is not
+/// empty.
+struct GaussianElement {
+  LeastSquares fit;
+  std::string why;
+  int starts = 1;
+};
+GaussianElement gaussian_element(Shape shape, const PointCloud& cloud, int max_iterations);
+
+/// Why the points show no such element at all: on one point, a line, a plane. Empty where they may.
+std::string degenerate_points(Shape shape, const PointCloud& cloud);
 
 }  // namespace trueaxis

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "associate/minimax.hpp"
-
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -9,6 +7,7 @@
 #include <optional>
 
 #include "associate/distance_kernel.hpp"
+#include "associate/extreme_element.hpp"
 #include "associate/least_squares.hpp"
 #include "math/dual_simplex.hpp"
 #include "math/linear_algebra.hpp"

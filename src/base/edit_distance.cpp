@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/edit_distance.hpp"
-
 #include <algorithm>
 #include <numeric>
 #include <vector>
+
+#include "base/text.hpp"
 
 namespace trueaxis {
 

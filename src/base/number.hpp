@@ -7,11 +7,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 
 namespace trueaxis {
 
@@ -135,5 +137,21 @@ inline std::string exact_text(double value) {
   append_exact(text, value);
   return text;
 }
+
+/// Appends what fmt makes of it.
+template <class... T>
+void put(std::string& text, fmt::format_string<T...> form, T&&... values) {
+  fmt::format_to(std::back_inserter(text), form, std::forward<T>(values)...);
+}
+
+/// Fixed, never "-0.000".
+inline std::string fixed(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool zero = text[0] == '-' && text.find_first_of("123456789") == std::string::npos;
+  return zero ? text.substr(1) : text;
+}
+
+/// A place in mm for messages: to a hundredth, never −0.
+inline double hundredths(double mm) { return std::round(100.0 * mm) / 100.0 + 0.0; }
 
 }  // namespace trueaxis

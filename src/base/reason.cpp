@@ -3,71 +3,28 @@
 
 #include <array>
 #include <string_view>
-
-#include "trueaxis/error.hpp"
+#include <utility>
 
 namespace trueaxis {
 namespace {
 
-/// In the order of the constants.
-constexpr std::string_view names =
-    "no_target coaxiality_expected run_out_expected with_the_table with_files tolerance_kept "
-    "tolerance_exceeded tolerance_not_proven file_too_coarse streams_exchanged streams_misread "
-    "axes_apart axes_of_no_part column_reversed x_convention_wrong probed_from_behind "
-    "stream_in_unit column_in_unit c_zero_differs z_zero_differs fit_implausible fit_failed "
-    "part_slipped part_may_have_slipped part_moved slip_unsure late_or_slipped statement_refuted "
-    "moved_across moved_along_z "
-    "moved_tilt moved_turn moved_radius moved_taper slipped_between_references "
-    "left_out_at_an_end far_off_at_the_end moved_in_pass cut_refused no_surface_behind_ball "
-    "no_material_between cuts_air may_cut_air stock_exceeded cut_too_far cut_far "
-    "gauge_shows_no_radius actuator_cannot_follow stroke_exceeded slew_exceeded "
-    "frequency_exceeded set_points_too_few following_error_exceeded rows_coarse rows_coarse_held "
-    "interpolation_not_stated no_uncertainty "
-    "motion_refused not_told_from_forbidden not_repeating seen_on_a_face seen_along_x "
-    "tool_off_probe_line beyond_probed_length named_otherwise shown_by_another may_be_forbidden "
-    "not_found not_reproduced left_unexplained jump_left pattern_with_axis finding_with_axis "
-    "few_angles "
-    "sensor_at_limit "
-    "undiagnosed_correlated noise_over_stated bow_or_vibration axis_open finding_has_rival "
-    "pattern_without_cause axis_open_beyond_tolerance improbable_and_far sensor_or_eccentricity "
-    "axis_of_cut_not_stated datum_members_apart reference_off_datum form_not_met "
-    "form_not_proven form_not_judged reads_a_face no_change_of_z cone_at_last no_taper_seen "
-    "taper_seen not_one_surface one_seat_found seats_found seat range_by_options "
-    "range_by_keys radius_steps taper_changes not_read of_no_seat clamp_again probe_all_again "
-    "probe_again "
-    "probe_at_other_speed measure turn_sign turn_sign_behind set_x_convention name_unit "
-    "name_units clamp_all_once_c clamp_all_once_z probe_nearer take_common_datum "
-    "quieter_probe_or_least_squares look_for_cause more_would_prove more_readings "
-    "greater_length quieter_sensor hidden_cause measurement_would_prove nothing_proves "
-    "file_would_do set_step set_c_step set_rows set_interpolation other_format rows_that_would_do "
-    "rows_do_not_help follows_with_rows follows_with_set_points follows_at_speed at_speed "
-    "at_speed_or_less at_no_speed set_surface program_expected no_program errors_not_found "
-    "errors_implausible too_few_cuts blocks_unreachable program_worse rapids_not_counted "
-    "ways_not_counted direction_worse correct_all_rotary found_not_measured_there "
-    "axis_not_measured_there beyond_measured finding_not_told finding_counted "
-    "remark check_found pattern_counted tool_length_not_measured "
-    "place_of_part_unknown one_tool_length of_the_part_alone of_found_directions "
-    "known_without_u at_a_pole cut_in_pieces more_decimals leaves_line not_corrected "
-    "more_rows_measured measure_plan measure_between plan mend_and_run_again name_the_program "
-    "probe_zero_and_run ";
-
-std::array<std::string, reason_codes> ids_of_names() {
-  std::array<std::string, reason_codes> ids;
-  std::size_t at = 0;
-  for (std::string& id : ids) {
-    const std::size_t end = names.find(' ', at);
-    expects(end != std::string_view::npos, "a name for every code");
-    id = names.substr(at, end - at);
-    at = end + 1;
-  }
-  expects(at == names.size(), "a code for every name");
-  return ids;
+/// The name of a constant, out of the compiler's text for this function.
+template <ReasonCode code>
+constexpr std::string_view name_of() {
+  constexpr std::string_view type = "ReasonCode::";
+  std::string_view text = __PRETTY_FUNCTION__;
+  text.remove_prefix(text.rfind(type) + type.size());
+  return text.substr(0, text.find_first_of(";]"));
 }
+static_assert(name_of<ReasonCode::part_slipped>() == "part_slipped");
 
 }  // namespace
 
 const char* to_string(ReasonCode code) {
-  static const std::array<std::string, reason_codes> ids = ids_of_names();
+  static const auto ids = []<std::size_t... i>(std::index_sequence<i...>) {
+    return std::array{std::string(name_of<static_cast<ReasonCode>(i)>())...};
+  }
+  (std::make_index_sequence<reason_codes>());
   return ids[static_cast<std::size_t>(code)].c_str();
 }
 

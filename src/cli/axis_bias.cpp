@@ -74,8 +74,7 @@ void add_axis_bias(CLI::App* command, int& exit_code) {
   add_place(*command, "-o,--output", options->folder,
             "folder for axis_bias.csv, .json and .md (default none)");
   add_json(*command, options->results, "trueaxis.axis_bias");
-  add_force(*command, options->results.force);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

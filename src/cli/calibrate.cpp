@@ -35,8 +35,7 @@ int execute(const CalibrateArguments& options) {
   Outputs outputs(results.force);
   outputs.reads(options.machine.machine);
   for (const std::string& path : options.data) outputs.reads(path);
-  for (const std::string& path : options.machine.errors) outputs.reads(path);
-  results.name_to(outputs);
+  results.name_to(outputs, options.machine.errors);
   MachineFile file;
   CalibrationOptions calibration;
   ErrorsOfFiles given;
@@ -91,9 +90,7 @@ void add_calibrate(CLI::App* command, int& exit_code) {
       ->required();
   results.add(*command, "--json", "trueaxis.calibration", "result (JSON); - prints it");
   add_coverage_factor(*command, options->coverage_factor);
-  add_force(*command, options->results.force);
-  add_verbose(*command, options->verbose);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check, &options->verbose);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

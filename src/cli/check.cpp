@@ -5,6 +5,7 @@
 #include "base/diagnostics.hpp"
 #include "base/text.hpp"
 #include "cli/guarded.hpp"
+#include "cli/options.hpp"
 #include "cli/terminal.hpp"
 #include "format/outputs.hpp"
 #include "trueaxis/error.hpp"
@@ -14,6 +15,12 @@ namespace trueaxis::cli {
 CLI::Option* add_check(CLI::App& command, bool& check) {
   return command.add_flag("--check,--dry-run", check,
                           "read all input and list what would be done; write nothing");
+}
+
+void add_usual(CLI::App& command, bool& force, bool& check, bool* verbose) {
+  add_force(command, force);
+  if (verbose) add_verbose(command, *verbose);
+  add_check(command, check);
 }
 
 namespace {

@@ -3,10 +3,23 @@
 
 #include <utility>
 
+#include "cli/guarded.hpp"
 #include "format/reason_words.hpp"
 #include "job/doubts.hpp"
 
 namespace trueaxis::cli {
+
+ProbeStream read_one_surface(const StreamOptions& stream, const AssociationOptions& association,
+                             const Results& results, Outputs& outputs) {
+  results.name_to(outputs, {stream.path});
+  ProbeStream readings;
+  all_of({[&] {
+            readings = stream.read();
+            expect_one_surface(readings, association.chosen().surface, RangesAs::options);
+          },
+          [&] { outputs.check(); }});
+  return readings;
+}
 
 FitResult checked_fit(const ProbeStream& stream, const FitOptions& options) {
   FitResult result = fit(stream, options);

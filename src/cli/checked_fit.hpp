@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cli/results.hpp"
+#include "cli/stream_options.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/part_form.hpp"
 
 namespace trueaxis::cli {
+
+/// The readings of one surface. `outputs` has the results and the place of the stream.
+/// @throws InputError with what is wrong in the stream and with the places
+ProbeStream read_one_surface(const StreamOptions& stream, const AssociationOptions& association,
+                             const Results& results, Outputs& outputs);
 
 /// A fit without an axis where the stream alone speaks against it: the part moved within a pass, or
 /// the sensor was at the end of its range. Angles so few that lobes may count are a note.

@@ -48,8 +48,7 @@ int execute(const CompensateArguments& options) {
   Outputs outputs(results.force);
   outputs.reads(options.program);
   outputs.reads(options.machine.machine);
-  for (const std::string& path : options.machine.errors) outputs.reads(path);
-  results.name_to(outputs);
+  results.name_to(outputs, options.machine.errors);
   MachineFile machine;
   ErrorsOfFiles of_files;
   std::string text;
@@ -131,9 +130,7 @@ void add_compensate(CLI::App* command, int& exit_code) {
   results.add(*command, "-o,--output", "", "new program")->required();
   results.add(*command, "--json", "trueaxis.compensation", "result (JSON); - prints it");
   add_accuracy(*command, *options);
-  add_force(*command, options->results.force);
-  add_verbose(*command, options->verbose);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check, &options->verbose);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

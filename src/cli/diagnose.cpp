@@ -34,14 +34,7 @@ struct DiagnoseArguments {
 int execute(const DiagnoseArguments& options) {
   const Results& results = options.results;
   Outputs outputs(results.force);
-  outputs.reads(options.stream.path);
-  results.name_to(outputs);
-  ProbeStream stream;
-  all_of({[&] {
-            stream = options.stream.read();
-            expect_one_surface(stream, options.association.chosen().surface, RangesAs::options);
-          },
-          [&] { outputs.check(); }});
+  ProbeStream stream = read_one_surface(options.stream, options.association, results, outputs);
   if (options.check)
     return checked(outputs, "fit a " + options.association.surface + " to " +
                                 counted(stream.size(), "reading") + " of " + stream.source +

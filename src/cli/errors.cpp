@@ -89,8 +89,7 @@ int execute(const ErrorsArguments& options) {
     for (std::string& one : where_known(file.machine, errors)) remarks.push_back(std::move(one));
   Outputs outputs(results.force);
   outputs.reads(options.machine.machine);
-  for (const std::string& path : options.machine.errors) outputs.reads(path);
-  results.name_to(outputs);
+  results.name_to(outputs, options.machine.errors);
   outputs.check();
   if (options.check) return checked(outputs, "list the errors of " + file.machine.name);
   results.write(outputs, "--json", [&] { return errors_json(file.machine, errors, at, remarks); });
@@ -121,8 +120,7 @@ void add_errors(CLI::App* command, int& exit_code) {
              "sign of component errors in an etalon or isg file");
   add_option(*command, "--points", options->points, CLI::Range(2, 100000),
              "points of an etalon or isg table for an axis not yet tabulated (default 101)");
-  add_force(*command, options->results.force);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check);
   command->callback([options, &exit_code] {
     if (options->format != "toml") options->results.say("--output", "trueaxis." + options->format);
     exit_code = execute(*options);

@@ -8,7 +8,6 @@
 #include "base/counted.hpp"
 #include "cli/checked_fit.hpp"
 #include "cli/commands.hpp"
-#include "cli/fit_criterion.hpp"
 #include "cli/fit_points.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -47,14 +46,7 @@ std::string diagnose_command(const FitArguments& options) {
 int execute(const FitArguments& options) {
   const Results& results = options.results;
   Outputs outputs(results.force);
-  outputs.reads(options.stream.path);
-  results.name_to(outputs);
-  ProbeStream stream;
-  all_of({[&] {
-            stream = options.stream.read();
-            expect_one_surface(stream, options.association.chosen().surface, RangesAs::options);
-          },
-          [&] { outputs.check(); }});
+  ProbeStream stream = read_one_surface(options.stream, options.association, results, outputs);
   if (options.check)
     return checked(outputs, "fit a " + options.association.surface + " to " +
                                 counted(stream.size(), "reading") + " of " + stream.source);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/fit_criterion.hpp"
-
 #include <algorithm>
 #include <iostream>
 
 #include "associate/files/stream_association.hpp"
 #include "cli/checked_fit.hpp"
+#include "cli/fit_points.hpp"
 #include "cli/guarded.hpp"
 #include "cli/results.hpp"
 #include "format/outputs.hpp"
@@ -55,8 +54,7 @@ int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions&
   results.say("--json", "trueaxis.association");
   results.say("--residuals", "trueaxis.distances");
   Outputs outputs(results.force);
-  outputs.reads(stream.path);
-  results.name_to(outputs);
+  results.name_to(outputs, {stream.path});
   outputs.check();
   const ProbeStream readings = stream.read();
   expect_one_surface(readings, surface_from_id(association.surface), RangesAs::options);

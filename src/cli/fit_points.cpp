@@ -66,8 +66,7 @@ int FitPoints::execute(const std::string& criterion_name, const Results& results
   const auto kind = named<Element>(element_names, element);
   const auto criterion = named<Criterion>(criterion_names, criterion_name);
   Outputs outputs(results.force);
-  outputs.reads(path);
-  results.name_to(outputs);
+  results.name_to(outputs, {path});
   outputs.check();
   const PointText points = read_points(path, unit, array);
   if (check)

@@ -136,14 +136,8 @@ void add_filter(CLI::App& command, FormArguments& options) {
 }
 
 void add_rest(CLI::App& command, FormArguments& options) {
-  command.add_flag("--bore", options.form.bore, "the part is probed from inside")
-      ->group(readings_group);
-  add_option(command, "--ball-radius-mm", options.form.ball_radius_mm, a_length(),
-             "ball radius if X_M is the ball's centre, mm (default 0)")
-      ->group(readings_group);
-  add_option(command, "--noise-um", options.noise_um, a_length(),
-             "standard deviation of one reading, µm (default from the data)")
-      ->group(readings_group);
+  add_probe(command, options.form.bore, options.form.ball_radius_mm, options.noise_um,
+            readings_group);
   add_place(command, "--datum", options.datum,
             "stream of the datum in the same clamping (default the spindle axis)")
       ->group(form_group);
@@ -167,9 +161,7 @@ void add_rest(CLI::App& command, FormArguments& options) {
               "profiles before and after the filter (CSV), features (QIF 3.0, XML)");
   results.add(command, "--qif", "trueaxis.qif",
               "profiles before and after the filter (CSV), features (QIF 3.0, XML)");
-  add_force(command, results.force);
-  add_verbose(command, options.verbose);
-  add_check(command, options.check);
+  add_usual(command, results.force, options.check, &options.verbose);
 }
 
 }  // namespace

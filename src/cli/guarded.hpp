@@ -41,6 +41,9 @@ int exit_code_of(const FitResult& fit, const std::string& source);
 /// writes nothing.
 CLI::Option* add_check(CLI::App& command, bool& check);
 
+/// `--force` and `--check` of a command that writes, `--verbose` of one that prints a screen too.
+void add_usual(CLI::App& command, bool& force, bool& check, bool* verbose = nullptr);
+
 /// Says what a command would do ("fit a cone to 1469 readings"), what it has read and what it would
 /// write. @returns the exit code
 int checked(const Outputs& outputs, const std::string& would);

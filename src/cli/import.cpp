@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "recording/import.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -15,7 +17,6 @@
 #include "format/shell.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/starter.hpp"
-#include "recording/read_out.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -115,8 +116,7 @@ void add_import(CLI::App* command, int& exit_code) {
              "axis of a machine that the file is a read-out of, against a scale or laser")
       ->excludes(job);
   options->results.add(*command, "--json", "trueaxis.import", "what was read (JSON); - prints it");
-  add_force(*command, options->results.force);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

@@ -18,8 +18,7 @@ void add_init(CLI::App* command, int& exit_code) {
   auto options = std::make_shared<Options>();
   add_option(*command, "folder", options->folder, a_place(), "folder for the files, new or empty")
       ->required();
-  add_force(*command, options->force);
-  add_check(*command, options->check);
+  add_usual(*command, options->force, options->check);
   command->callback([options, &exit_code] {
     Outputs outputs(options->force);
     outputs.into(options->folder);

@@ -26,9 +26,7 @@ void add_machine_diagnose(CLI::App* command, int& exit_code) {
   results.add(*command, "-o,--output", "trueaxis.errors", "errors, those given and found (TOML)");
   results.add(*command, "--json", "trueaxis.machine_diagnosis", "result (JSON); - prints it");
   results.add(*command, "--report", "trueaxis.machine_report", "report page (HTML)");
-  add_force(*command, results.force);
-  add_verbose(*command, run.verbose);
-  add_check(*command, run.check);
+  add_usual(*command, results.force, run.check, &run.verbose);
   command->callback([options, &exit_code] { exit_code = options->run.diagnose(options->results); });
 }
 

@@ -39,8 +39,13 @@ struct Said {
   Json program;  ///< null: none
 };
 
-/// @throws InputError with what is wrong in any file
-Read read_of(const MachineDiagnosed& run, Outputs& outputs) {
+/// @throws InputError with what is wrong in any file, or in a place of `results`
+Read read_of(const MachineDiagnosed& run, const Results& results, Outputs& outputs) {
+  outputs.reads(run.machine.machine);
+  for (const std::string& path : run.data) outputs.reads(path);
+  for (const std::string& path : run.machine.errors) outputs.reads(path);
+  if (!run.program.empty()) outputs.reads(run.program);
+  results.name_to(outputs);
   Read read;
   all_of({[&] { read.file = run.machine.read_machine(); },
           [&] {
@@ -83,13 +88,6 @@ Said said_of(const MachineDiagnosed& run, const Read& read) {
   out.harm = weigh_on_program(machine, out.found, read.program, run.program);
   out.program = weighed_object(*out.harm, read.program);
   return out;
-}
-
-void inputs_of(const MachineDiagnosed& run, Outputs& outputs) {
-  outputs.reads(run.machine.machine);
-  for (const std::string& path : run.data) outputs.reads(path);
-  for (const std::string& path : run.machine.errors) outputs.reads(path);
-  if (!run.program.empty()) outputs.reads(run.program);
 }
 
 /// The diagnosis as a job without a program, for its page.
@@ -163,9 +161,7 @@ CLI::Option* MachineDiagnosed::add_to(CLI::App& command) {
 
 int MachineDiagnosed::diagnose(const Results& results) const {
   Outputs outputs(results.force);
-  inputs_of(*this, outputs);
-  results.name_to(outputs);
-  const Read read = read_of(*this, outputs);
+  const Read read = read_of(*this, results, outputs);
   if (check) return checked(outputs, would_do(*this, read));
   const Said said = said_of(*this, read);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
@@ -189,9 +185,7 @@ int MachineDiagnosed::diagnose(const Results& results) const {
 
 int MachineDiagnosed::advise(const Results& results) const {
   Outputs outputs(results.force);
-  inputs_of(*this, outputs);
-  results.name_to(outputs);
-  const Read read = read_of(*this, outputs);
+  const Read read = read_of(*this, results, outputs);
   if (check) return checked(outputs, would_do(*this, read) + ", propose the next measurement");
   const Said said = said_of(*this, read);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);

@@ -50,8 +50,7 @@ void add_machine_import(CLI::App* command, int& exit_code) {
       ->required();
   add_place(*command, "--errors-output", options->errors_output,
             "errors of the parameters as location errors (TOML)");
-  add_force(*command, options->force);
-  add_check(*command, options->check);
+  add_usual(*command, options->force, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

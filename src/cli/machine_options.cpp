@@ -56,16 +56,14 @@ Setting MachineOptions::setting_of(const Machine& of) const {
 void TableOutput::add_to(CLI::App& command, const std::string& schema) {
   results.add(command, "-o,--output", schema, "table (CSV, default printed)");
   add_json(command, results, schema);
-  add_force(command, results.force);
-  add_check(command, check);
+  add_usual(command, results.force, check);
 }
 
 int TableOutput::print_or_write(const std::string& schema, const std::string& table,
                                 const Json& rows, const std::vector<std::string>& read,
                                 const std::string& would) const {
   Outputs outputs(results.force);
-  for (const std::string& path : read) outputs.reads(path);
-  results.name_to(outputs);
+  results.name_to(outputs, read);
   outputs.check();
   if (check) return checked(outputs, would);
   const std::string& place = results["--output"];

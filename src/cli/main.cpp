@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glog/logging.h>
 
-#include "cli/dropped.hpp"
 #include "cli/guarded.hpp"
 #include "cli/program.hpp"
 #include "platform/memory.hpp"

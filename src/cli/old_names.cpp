@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/old_names.hpp"
-
 #include <algorithm>
 #include <array>
 #include <string_view>
+
+#include "cli/program.hpp"
 
 namespace trueaxis::cli {
 namespace {

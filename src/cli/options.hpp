@@ -53,6 +53,18 @@ CLI::Option* add_option(CLI::App& command, const std::string& name, Value& value
   return command.add_option(name, value, help)->check(check);
 }
 
+/// `--bore`, `--ball-radius-mm` and `--noise-um` of a command that evaluates readings.
+inline void add_probe(CLI::App& command, bool& bore, double& ball_radius_mm, double& noise_um,
+                      const char* group) {
+  command.add_flag("--bore", bore, "the part is probed from inside")->group(group);
+  add_option(command, "--ball-radius-mm", ball_radius_mm, a_length(),
+             "ball radius if X_M is the ball's centre, mm (default 0)")
+      ->group(group);
+  add_option(command, "--noise-um", noise_um, a_length(),
+             "standard deviation of one reading, µm (default from the data)")
+      ->group(group);
+}
+
 inline CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::IsMember(std::move(words));
 }

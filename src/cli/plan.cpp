@@ -209,8 +209,7 @@ void add_plan(CLI::App* command, int& exit_code) {
   options->results.add(*command, "-o,--output", "trueaxis.probing_program",
                        "program of the quickest plan recommended, with --control");
   options->results.add(*command, "--json", "trueaxis.plan", "result (JSON); - prints it");
-  add_force(*command, options->results.force);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check);
   add_simple(*command, options->simple, scenario);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

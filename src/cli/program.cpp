@@ -6,7 +6,6 @@
 
 #include "cli/catalogue.hpp"
 #include "cli/guarded.hpp"
-#include "cli/old_names.hpp"
 #include "format/nearest_key.hpp"
 #include "trueaxis/error.hpp"
 

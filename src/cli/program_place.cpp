@@ -4,7 +4,6 @@
 #include "cli/guarded.hpp"
 #include "format/file.hpp"
 #include "nc/mark.hpp"
-#include "nc/skeleton.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {

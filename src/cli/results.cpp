@@ -40,7 +40,8 @@ bool Results::printed() const {
   return std::ranges::any_of(all_, [](const Result& one) { return is_standard_output(one.place); });
 }
 
-void Results::name_to(Outputs& outputs) const {
+void Results::name_to(Outputs& outputs, const std::vector<std::string>& read) const {
+  for (const std::string& path : read) outputs.reads(path);
   for (const Result& one : all_) {
     if (one.filled_in)
       outputs.may_begin(one.place, "", one.schema);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "format/outputs.hpp"
 
@@ -39,7 +40,8 @@ class Results {
   }
   /// One that the user fills in afterwards: what is there is replaced only with `--force`.
   void is_filled_in(const std::string& option);
-  void name_to(Outputs& outputs) const;
+  /// Names what the command may write, and the files that it reads.
+  void name_to(Outputs& outputs, const std::vector<std::string>& read = {}) const;
 
  private:
   struct Result {

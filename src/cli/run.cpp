@@ -12,7 +12,6 @@
 #include "base/diagnostics.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/run_machine.hpp"
 #include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -147,9 +146,7 @@ void add_run(CLI::App* command, int& exit_code) {
                    "the machine corrects this table")
       ->type_name("RESULT");
   add_json(*command, options->results, "trueaxis.run");
-  add_force(*command, options->force);
-  add_verbose(*command, options->verbose);
-  add_check(*command, options->check);
+  add_usual(*command, options->force, options->check, &options->verbose);
   command->callback([=, &exit_code] {
     if (options->folder.empty()) options->folder = default_folder(options->stream.path);
     if (is_job(options->stream.path))

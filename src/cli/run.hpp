@@ -5,6 +5,7 @@
 
 #include "cli/results.hpp"
 #include "cli/stream_options.hpp"
+#include "trueaxis/machine_job.hpp"
 
 namespace trueaxis::cli {
 
@@ -20,5 +21,14 @@ struct RunArguments {
 
 /// The command of this name, with its screen and files; what it ends with.
 int run(const RunArguments& options);
+
+struct RunMachineOptions {
+  std::string folder;
+  bool force = false, verbose = false, check = false;
+  const Results* results = nullptr;
+};
+
+/// `trueaxis run` of the job of a machine of several axes. @returns the exit code
+int run_machine(MachineJob job, const RunMachineOptions& options);
 
 }  // namespace trueaxis::cli

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/run_machine.hpp"
-
 #include <iostream>
 #include <optional>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "base/counted.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "cli/guarded.hpp"
+#include "cli/run.hpp"
 #include "cli/terminal.hpp"
 #include "format/outputs.hpp"
 #include "job/machine/files/machine_job_files.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "cli/terminal.hpp"
 #include "format/text_layout.hpp"
 #include "platform/terminal.hpp"
@@ -35,9 +35,6 @@ const char* colour_of(const std::string& line) {
 /// Blanks between a number and its unit, about ± and =, as a sign that no line is broken at; back
 /// again where it is.
 constexpr char bound = '\x1f';
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 std::string with_units_bound(std::string text) {
   for (const std::string_view unit :

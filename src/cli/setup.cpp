@@ -71,9 +71,7 @@ void add_setup_command(CLI::App* command, const SetupCommand& which, int& exit_c
   command->add_flag("--large-errors", options->large_errors,
                     "accept a part or tips more than 10 mm or 5 degrees off");
   if (which.has_u) add_coverage_factor(*command, options->coverage_factor);
-  add_force(*command, options->results.force);
-  add_verbose(*command, options->verbose);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check, &options->verbose);
   command->callback([options, which, &exit_code] { exit_code = execute(*options, which); });
 }
 

@@ -23,8 +23,7 @@ namespace lathe = virtual_lathe;
 
 /// The stream of a simulation, and what the virtual lathe knows of it.
 void check_outputs(Outputs& outputs, const SimulateOptions& options) {
-  outputs.reads(options.scenario);
-  options.results.name_to(outputs);
+  options.results.name_to(outputs, {options.scenario});
   outputs.check();
 }
 
@@ -138,8 +137,7 @@ void add_simulate(CLI::App* command, int& exit_code) {
       ->needs(output);
   results.add(*command, "--json", "trueaxis.comparison",
               "comparison with --from, or seed and number of readings (JSON); - prints it");
-  add_force(*command, results.force);
-  add_check(*command, options->check);
+  add_usual(*command, results.force, options->check);
   command->callback([options, &exit_code] {
     const Results& results = options->results;
     if (options->diagnosis.empty()) {

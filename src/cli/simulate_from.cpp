@@ -57,9 +57,7 @@ int simulate_from(SimulateOptions& options) {
   StreamOptions stream = options.stream;
   stream.path = diagnosed_stream_path(stream.path, options.diagnosis, diagnosis);
   Outputs outputs(options.results.force);
-  outputs.reads(options.diagnosis);
-  outputs.reads(stream.path);
-  options.results.name_to(outputs);
+  options.results.name_to(outputs, {options.diagnosis, stream.path});
   ProbeStream measured;
   all_of({[&] { measured = stream.read(); }, [&] { outputs.check(); }});
   if (options.check)

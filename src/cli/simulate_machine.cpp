@@ -24,8 +24,7 @@ int simulate_measurement(SimulateOptions& options) {
   if (options.seed) scenario.plan.seed = *options.seed;
   Outputs outputs(results.force);
   for (const std::string& path : scenario.of.read) outputs.reads(path);
-  outputs.reads(options.scenario);
-  results.name_to(outputs);
+  results.name_to(outputs, {options.scenario});
   outputs.check();
   if (options.check)
     return checked(outputs, "play the measurement of " + options.scenario + " on its machine");
@@ -50,8 +49,7 @@ int simulate_cut(SimulateOptions& options) {
   const CutScenario scenario = read_cut_scenario_toml(options.scenario, options.program);
   Outputs outputs(results.force);
   for (const std::string& path : scenario.of.read) outputs.reads(path);
-  outputs.reads(options.scenario);
-  results.name_to(outputs);
+  results.name_to(outputs, {options.scenario});
   outputs.check();
   if (options.check)
     return checked(outputs, "cut the program on the machine of " + options.scenario);
@@ -94,8 +92,7 @@ void add_machine_simulate(CLI::App* command, int& exit_code) {
               "measurement, or path of the tip in a cut (CSV); - prints it");
   results.add(*command, "--json", "trueaxis.cut",
               "judgement of a cut, or seed and number of rows (JSON); - prints it");
-  add_force(*command, results.force);
-  add_check(*command, options->check);
+  add_usual(*command, results.force, options->check);
   command->callback([options, &exit_code] { exit_code = simulate_machine(*options); });
 }
 

@@ -109,8 +109,7 @@ int separate(const SpindleArguments& options, const OrderRange& orders) {
   const Results& results = options.results;
   Outputs outputs(results.force);
   outputs.reads(options.streams.front());
-  for (const std::string& path : job.streams) outputs.reads(path);
-  results.name_to(outputs);
+  results.name_to(outputs, job.streams);
   outputs.check();
   if (options.check)
     return checked(outputs, "separate part and spindle in " + std::to_string(streams.size()) +
@@ -154,8 +153,7 @@ void add_estimate(CLI::App& command, SpindleArguments& options) {
   results.add(command, "--report", "trueaxis.spindle_report",
               "report page with values, polar plots, orders (HTML)");
   add_verbose(command, options.verbose);
-  add_force(command, results.force);
-  add_check(command, options.check);
+  add_usual(command, results.force, options.check);
   options.meaning.add_meaning_to(command);
 }
 

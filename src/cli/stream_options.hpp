@@ -119,13 +119,7 @@ struct AssociationOptions {
     add_option(command, "--loss", loss, one_of({"plain", "huber", "tukey"}),
                "weight of outlying readings (default plain)")
         ->group(surface_group);
-    command.add_flag("--bore", fit.bore, "the part is probed from inside")->group(surface_group);
-    add_option(command, "--ball-radius-mm", fit.ball_radius_mm, a_length(),
-               "ball radius if X_M is the ball's centre, mm (default 0)")
-        ->group(surface_group);
-    add_option(command, "--noise-um", noise_um, a_length(),
-               "standard deviation of one reading, µm (default from the data)")
-        ->group(surface_group);
+    add_probe(command, fit.bore, fit.ball_radius_mm, noise_um, surface_group);
     if (!fit_only)
       command.add_option("--known", known, "known value, as lag_ms=0.4±0.1; keys of [sensor]")
           ->group(surface_group)

@@ -22,8 +22,7 @@ void add_sweep(CLI::App* command, int& exit_code) {
   add_place(*command, "-o,--output", options->folder,
             "folder for results, report and journal (default none: nothing is kept)");
   add_json(*command, options->results, "trueaxis.sweep");
-  add_force(*command, options->results.force);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check);
   add_threads(*command, options->threads);
   command->callback([options, &exit_code] {
     const study::PublishedSweep file = read_published_sweep(options->sweep);

@@ -22,8 +22,7 @@ namespace {
 
 void check_outputs(Outputs& outputs, const study::PublishedSweep& file, const std::string& folder,
                    const Results& results) {
-  for (const std::string& input : file.sweep.input_files) outputs.reads(input);
-  results.name_to(outputs);
+  results.name_to(outputs, file.sweep.input_files);
   if (folder.empty()) return outputs.check();
   outputs.into(folder);
   outputs.may_write_in_folder("journal.bin", "");  // continued, or refused when it is opened

@@ -180,8 +180,7 @@ void add_table(CLI::App* command, int& exit_code) {
   options->stream.add_range_to(*command);
   StreamOptions::add_ball_radius(*command, options->ball_radius_mm);
   add_json(*command, options->results, "trueaxis.run");
-  add_force(*command, options->results.force);
-  add_check(*command, options->check);
+  add_usual(*command, options->results.force, options->check);
   command->callback([options, &exit_code] {
     if (!options->preview && options->table.empty())
       throw CLI::RequiredError("-o TABLE or --preview");

@@ -21,7 +21,6 @@
 #include "format/outputs.hpp"
 #include "job/files/stream_job.hpp"
 #include "live/files/arriving_text.hpp"
-#include "live/files/live_text.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "platform/arriving_bytes.hpp"
 #include "platform/terminal.hpp"
@@ -295,9 +294,7 @@ void add_watch(CLI::App* command, int& exit_code) {
   add_option(*command, "--most-readings", options->most_kept, CLI::Range(1000, 100000000),
              "readings that are kept before they are thinned (default 1000000)");
   add_json(*command, run.results, "trueaxis.run");
-  add_force(*command, run.force);
-  add_verbose(*command, run.verbose);
-  add_check(*command, run.check);
+  add_usual(*command, run.force, run.check, &run.verbose);
   command->callback([=, &exit_code] {
     RunArguments& run_options = options->run;
     if (options->hal == !run_options.stream.path.empty())

@@ -62,11 +62,11 @@ namespace {
 /// In how many parts a way bends no more than once each: 20° of rotary axes and what bends an
 /// error.
 double parts_of(const AxisPositions& from, const AxisPositions& to, const ErrorBends& bends) {
-  constexpr double even_rad = 20.0 * rad_per_deg;
   double parts = 0.0;
   for (std::size_t k = 0; k < axis_count; ++k) {
     const double way = std::abs(to[k] - from[k]);
-    parts += way / bends.length[k] + (is_rotary(static_cast<AxisName>(k)) ? way / even_rad : 0.0);
+    parts +=
+        way / bends.length[k] + (is_rotary(static_cast<AxisName>(k)) ? way / even_turn_rad : 0.0);
   }
   return parts;
 }
@@ -110,7 +110,7 @@ double BlockPath::deviation_mm(const Stretch& on, double of_interest_mm) const {
     const double ends_mm = std::max(off_from_mm, off_to_mm);
     const double seen_mm = std::max(ends_mm, off_nominal_mm(middle, 0.5));
     const double most_mm = ends_mm + bow_mm + beside_parabola_mm(on.from, on.to, task_.bends);
-    if (most_mm < of_interest_mm || most_mm <= 1.01 * seen_mm) return seen_mm;
+    if (most_mm < of_interest_mm || most_mm <= stated_to * seen_mm) return seen_mm;
   }
   const auto off_mm = [&](double s) {
     if (s == 0.0) return off_from_mm;

@@ -13,6 +13,7 @@
 #include "base/threads.hpp"
 #include "compensate/between.hpp"
 #include "compensate/block_end.hpp"
+#include "compensate/largest_on_way.hpp"
 #include "compensate/reservations.hpp"
 #include "machine/held_axes.hpp"
 #include "nc/mark.hpp"
@@ -123,7 +124,6 @@ void expect_length_axis(const nc::Program& program, const ProgramAxes& axes) {
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 
-constexpr double stated_to = 1.01;    // a deviation is stated to a hundredth
 constexpr double model_mm = 1e-9;     // rounding of the model
 constexpr double decimals_mm = 1e-4;  // of one block: what the last of four decimals does
 

@@ -10,6 +10,8 @@
 
 namespace trueaxis {
 
+inline constexpr double stated_to = 1.01;  ///< a deviation is stated to a hundredth
+
 /// The largest of a function on [0, 1], by `count` + 1 even points (2 or more parts). If the
 /// largest can be above `of_interest`, the search goes on next to each point that is a peak and
 /// within a tenth of the largest. There the vertex of the parabola through three points is asked;

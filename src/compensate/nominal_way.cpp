@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trueaxis/units.hpp"
-
 namespace trueaxis {
 
 namespace {
@@ -26,8 +24,7 @@ bool turns_alone(const AxisPositions& from, const AxisPositions& to) {
 }
 
 bool means_own_way(const AxisPositions& from, const AxisPositions& to) {
-  constexpr double line_rad = 20.0 * rad_per_deg;
-  return most_of(from, to, 3, axis_count) > line_rad || turns_alone(from, to);
+  return most_of(from, to, 3, axis_count) > even_turn_rad || turns_alone(from, to);
 }
 
 NominalWay::NominalWay(const CompensationTask& task, const nc::Move& move,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compensate/block_end.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 
@@ -17,8 +18,11 @@ inline AxisPositions mix(const AxisPositions& a, const AxisPositions& b, double 
 /// Whether a move turns rotary axes and moves no linear one, by its axes or by its words.
 bool turns_alone(const AxisPositions& from, const AxisPositions& to);
 
+/// A way is even if rotary axes turn less. The line of a longer one is 1.5 % of the radius off.
+inline constexpr double even_turn_rad = 20.0 * rad_per_deg;
+
 /// Whether a block whose axes go evenly means the way of the machine and no straight line: it turns
-/// rotary axes alone, or one of them by more than 20°. The line is then 1.5 % of the radius off.
+/// rotary axes alone, or one of them by more than 20°.
 bool means_own_way(const AxisPositions& from, const AxisPositions& to);
 
 /// What the tip should do in the part during a move (0 ≤ s ≤ 1): the straight line between its

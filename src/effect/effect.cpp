@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/edit_distance.hpp"
+#include "base/text.hpp"
 #include "effect/entries.hpp"
 #include "effect/kinds.hpp"
 #include "effect/linear_count.hpp"

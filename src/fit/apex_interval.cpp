@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/apex_interval.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "fit/describe.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/correlated_noise.hpp"
-
 #include <algorithm>
 #include <utility>
 
+#include "fit/uncertainty.hpp"
 #include "math/autoregression.hpp"
 #include "measure/passes.hpp"
 

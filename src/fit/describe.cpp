@@ -10,7 +10,6 @@
 
 #include "base/counted.hpp"
 #include "base/number.hpp"
-#include "fit/apex_interval.hpp"
 #include "fit/plausible.hpp"
 #include "fit/probe_height.hpp"
 #include "math/linear_algebra.hpp"

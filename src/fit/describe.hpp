@@ -6,6 +6,7 @@
 
 #include "fit/uncertainty.hpp"
 #include "surface/surface.hpp"
+#include "trueaxis/fit.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
@@ -31,5 +32,11 @@ std::string gross_readings(const ProbeStream& stream);
 /// what looks like another unit of C; a sentence each. Only of a stream that was read from a file:
 /// who fills one in a program knows what is in it.
 std::vector<std::string> notes_on_input(const ProbeStream& stream, const SurfaceInfo& info);
+
+/// Gives the apex k of a cone its coverage interval, of value and covariance of the parameters
+/// (Eq. 36a); surfaces without an apex, and an apex without value or u, stay as they
+/// are. Without an interval stays too a k whose half angle is within `coverage_factor` u of zero.
+void add_apex_interval(std::vector<FitParameter>& parameters, const Covariance& covariance,
+                       double coverage_factor);
 
 }  // namespace trueaxis

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/minimise.hpp"
-
 #include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
@@ -12,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "fit/associate.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis {

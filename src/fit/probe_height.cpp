@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "fit/apex_interval.hpp"
 #include "fit/describe.hpp"
 
 namespace trueaxis {

@@ -17,7 +17,6 @@
 #include "form/stream_checks.hpp"
 #include "form/uncertainty.hpp"
 #include "math/statistics.hpp"
-#include "measure/lone_outliers.hpp"
 
 namespace trueaxis::form {
 namespace {

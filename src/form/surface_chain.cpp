@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "form/surface_chain.hpp"
-
 #include <algorithm>
 #include <array>
 #include <boost/random/gamma_distribution.hpp>
@@ -12,6 +10,7 @@
 
 #include "base/stop.hpp"
 #include "form/order_evidence.hpp"
+#include "form/surface_model.hpp"
 #include "form/surface_order.hpp"
 #include "math/exponential.hpp"
 #include "math/linear_algebra.hpp"

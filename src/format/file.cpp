@@ -105,4 +105,21 @@ bool is_standard_output(const std::string& path) {
   return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1";
 }
 
+namespace fs = std::filesystem;
+
+std::string path_text(const fs::path& path) {
+  std::string text = path.string();
+  constexpr auto separator = static_cast<char>(fs::path::preferred_separator);
+  std::ranges::replace(text, separator, '/');
+  return text;
+}
+
+std::string path_next_to(const std::string& file, const std::string& name) {
+  const fs::path path = fs::path(file).parent_path() / name;
+  const std::string shortest = path_text(path.lexically_normal());
+  // A path of the network begins with two, of which lexically_normal leaves one.
+  const bool of_network = path_text(path).starts_with("//") && !shortest.starts_with("//");
+  return of_network ? '/' + shortest : shortest;
+}
+
 }  // namespace trueaxis

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,5 +56,11 @@ std::string link_target(const std::string& path);
 
 /// "-", or another name of it.
 bool is_standard_output(const std::string& path);
+
+/// The text of a path, with slashes in every system: a result has the same bytes on each.
+std::string path_text(const std::filesystem::path& path);
+
+/// The path of what the file at `file` calls `name`: from its folder on, and as short as possible.
+std::string path_next_to(const std::string& file, const std::string& name);
 
 }  // namespace trueaxis

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/edit_distance.hpp"
+#include "base/text.hpp"
 #include "format/units.hpp"
 
 namespace trueaxis {

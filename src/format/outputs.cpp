@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "format/file.hpp"
-#include "format/path_text.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

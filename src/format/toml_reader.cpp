@@ -13,7 +13,6 @@
 #include "base/text.hpp"
 #include "format/file.hpp"
 #include "format/nearest_key.hpp"
-#include "format/path_text.hpp"
 #include "format/toml_words.hpp"
 #include "format/units.hpp"
 

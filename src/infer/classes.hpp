@@ -25,10 +25,10 @@ double right_name(double d);
 /// Against rival causes at some distances, each as often as it is the cause (Eq. 99).
 double right_name_of(const std::vector<Rival>& rivals, const std::vector<double>& distances);
 
-/// The least distance of a measurement that is advised. d = 4.1: 2 ln L of the true cause over a
-/// rival cause is Gaussian about d² with variance 4 d², and tells in Φ((d² − 7)/(2 d)) = 89 % (Eq.
-/// 188).
-inline constexpr double told_for_sure = 0.98;
+/// The least distance of a measurement that is advised: 2 ln L of the true cause over a rival cause
+/// is Gaussian about d² with variance 4 d², and tells in Φ((d² − 7)/(2 d)) = 89 % (Eq. 188).
+inline constexpr double sure_distance = 4.1;
+inline constexpr double told_for_sure = 0.98;  ///< Φ(d/2) there
 inline constexpr double found_for_sure = 0.9;  ///< power, likewise
 
 /// ‖(I − P) μ‖² of μ = columns × coefficients, P what the projection took out.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/axis_likelihood.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -9,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "job/mistakes.hpp"
 #include "math/linear_algebra.hpp"
 #include "trueaxis/units.hpp"
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "job/check.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 
@@ -66,5 +67,9 @@ extern const AxisDoubt left_out_at_an_end;
 /// Several of the last eight readings lie farther off than in any other eight, and than their share
 /// elsewhere makes once in a thousand streams.
 extern const AxisDoubt far_off_at_the_end;
+
+/// The most telling measurement that the diagnoses ask for; none where the part slipped, for it has
+/// to be clamped again first.
+const NextMeasurement* next_measurement(const JobResult& result);
 
 }  // namespace trueaxis

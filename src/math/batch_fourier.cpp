@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "math/batch_fourier.hpp"
-
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "math/fast_fourier.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

@@ -9,9 +9,30 @@
 #include <span>
 #include <vector>
 
-#include "math/batch_fourier.hpp"
-
 namespace trueaxis {
+
+/// Transforms of one length n = 2^a 3^b 5^c, `batch` of them side by side:
+/// X_k = Σ_j x_j exp(−2πi jk/n), by radices 4, 2, 3 and 5 in the order of Stockham (1966).
+class BatchFourier {
+ public:
+  static constexpr std::size_t batch = 8;
+
+  explicit BatchFourier(std::size_t n);
+
+  std::size_t size() const { return roots_.size(); }
+
+  /// Value j of transform b at j · batch + b; 64-byte aligned.
+  struct Values {
+    double *real, *imaginary;
+  };
+  /// @param other room for as many
+  /// @returns whichever of the two holds X
+  Values operator()(Values x, Values other) const;
+
+ private:
+  std::vector<std::size_t> radices_;
+  std::vector<std::complex<double>> roots_;  ///< exp(−2πi m/n)
+};
 
 /// Smallest even number 2^a 3^b 5^c that is at least `least`.
 std::size_t smooth_even_size(std::size_t least);

@@ -50,4 +50,8 @@ Extent range_of(std::span<const double> values);
 /// quantity. From a thousand on it is 1, which is right to 0.2 % for k = 2.
 double student_widening(double freedom, double coverage_factor);
 
+/// Chips: which of the residuals, in order of time, lie far off while their neighbours do not. A
+/// part that moved takes its neighbours along. Those that are not finite are not far.
+std::vector<bool> lone_outliers(std::span<const double> left_mm);
+
 }  // namespace trueaxis

@@ -11,7 +11,6 @@
 #include "base/number.hpp"
 #include "base/stop.hpp"
 #include "math/statistics.hpp"
-#include "measure/column_order.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

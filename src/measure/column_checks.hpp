@@ -52,4 +52,9 @@ std::string unit_changes(const ProbeStream& stream);
 /// does.
 std::string column_objection(const ProbeStream& stream);
 
+/// A column whose rows are no longer those of the others: C or Z jumps at random while the other
+/// goes on as a machine moves, or X_M was sorted. Rows that were sorted or shuffled whole keep
+/// their numbers together and pass. Empty: nothing of that kind (theory.md, Eq. 316).
+std::string column_out_of_order(const ProbeStream& stream);
+
 }  // namespace trueaxis

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/column_order.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <complex>
 
 #include "math/statistics.hpp"
+#include "measure/column_checks.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

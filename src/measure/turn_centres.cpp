@@ -9,7 +9,6 @@
 
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
-#include "measure/lone_outliers.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 

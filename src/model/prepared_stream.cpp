@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/prepared_stream.hpp"
-
 #include <algorithm>
 #include <new>
 
 #include "math/sincos.hpp"
+#include "model/normal_matrix.hpp"
 #include "platform/memory.hpp"
 #include "trueaxis/error.hpp"
 

@@ -15,9 +15,6 @@ namespace {
 constexpr double largest_number = 1e9;  // of any word that is read
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-
 /// Reads the words of one line.
 class LineReader {
  public:

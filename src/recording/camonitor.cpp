@@ -11,7 +11,6 @@
 #include "format/csv_text.hpp"
 #include "math/statistics.hpp"
 #include "recording/columns.hpp"
-#include "recording/instant.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {

@@ -39,4 +39,19 @@ ImportedRecording import_recording(const std::string& path, const RecordingOptio
 /// read_stream_csv() or import_recording() do
 ProbeStream read_recording(const std::string& path, const RecordingOptions& options = {});
 
+/// The read-out of an axis against a scale or laser as `calibrate` reads it: `# kind: axis`.
+struct ImportedReadOut {
+  std::vector<std::string> notes;  ///< what was read and what was not used, in sentences
+  std::string text;                ///< trueaxis.measurement/1; the digits as they were in the file
+  std::size_t rows = 0;
+};
+
+/// Reads a table of positions with either actual positions or errors (actual less commanded, ISO
+/// 230-2) of an axis, X Y Z A B C. Columns by their names, or as `options.columns` says:
+/// "command=1[mm],error=3[um]".
+/// @throws InputError with everything that is wrong or not clear, and the command that would read
+/// it
+ImportedReadOut import_read_out(const std::string& path, char axis,
+                                const RecordingOptions& options = {});
+
 }  // namespace trueaxis

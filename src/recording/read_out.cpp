@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "recording/read_out.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 #include "format/units.hpp"
 #include "interchange/number_file.hpp"
 #include "recording/columns.hpp"
+#include "recording/import.hpp"
 #include "recording/recording.hpp"
 #include "trueaxis/error.hpp"
 

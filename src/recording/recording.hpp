@@ -118,4 +118,8 @@ Recording recognise_recording(const RecordedText& text, const std::string& path,
 /// "1 Nr., 2 Angle(°), 3 X": what there is to choose from; of a column without a name its number.
 std::string columns_listed(const Recording& recording);
 
+/// Seconds of "13:55:48.325" since midnight, of "2022-02-22 13:55:48.325" since 1970 as if in UTC;
+/// the seconds may have a decimal comma. Nothing for other text.
+std::optional<double> instant_s(std::string_view text);
+
 }  // namespace trueaxis

@@ -12,7 +12,7 @@
 #include "format/csv_text.hpp"
 #include "format/units.hpp"
 #include "recording/column_names.hpp"
-#include "recording/instant.hpp"
+#include "recording/recording.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -2,19 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/counted.hpp"
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {
-namespace {
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-
-}  // namespace
 
 std::vector<RecordedWord> recorded_words(std::string_view line) {
   std::vector<RecordedWord> words;

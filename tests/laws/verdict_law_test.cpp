@@ -7,8 +7,8 @@
 #include <string>
 
 #include "diagnose/files/seen.hpp"
+#include "job/doubts.hpp"
 #include "job/files/job_words.hpp"
-#include "job/next_measurement.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Columns whose rows are not those of the others, and rows in any order, which are.
-#include "measure/column_order.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <functional>
 #include <random>
 
-#include "fit/apex_interval.hpp"
 #include "fit/associate.hpp"
+#include "fit/describe.hpp"
 #include "fit/joint_model.hpp"
 #include "fit/place_set_ups.hpp"
 #include "fit/probe_height.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "form/files/form_files.hpp"
-#include "format/size_text.hpp"
+#include "format/text_layout.hpp"
 #include "support/form_profiles.hpp"
 
 namespace trueaxis::form_bounds_test {

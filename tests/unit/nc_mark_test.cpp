@@ -5,7 +5,6 @@
 
 #include "nc/mark.hpp"
 #include "nc/program.hpp"
-#include "nc/skeleton.hpp"
 #include "support/nc_programs.hpp"
 #include "trueaxis/error.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "nc/mark.hpp"
 #include "nc/number_text.hpp"
-#include "nc/skeleton.hpp"
 #include "nc/writer.hpp"
 #include "support/nc_programs.hpp"
 #include "trueaxis/error.hpp"

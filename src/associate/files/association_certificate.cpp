@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "associate/files/association_files.hpp"
 #include "associate/nearest_surface.hpp"
+#include "base/number.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
-
-template <typename... T>
-void append(std::string& text, fmt::format_string<T...> form, T&&... values) {
-  fmt::format_to(std::back_inserter(text), form, std::forward<T>(values)...);
-}
 
 std::string three(const Point3& v) {
   return fmt::format("{:.17g} {:.17g} {:.17g}", v[0], v[1], v[2]);
@@ -21,20 +15,20 @@ std::string three(const Point3& v) {
 
 void append_element(std::string& text, const AssociatedFeature& of) {
   const Feature& f = of.feature;
-  append(text, "# point: {} mm\n", three(f.point_mm));
-  if (of.element != Element::sphere) append(text, "# direction: {}\n", three(f.direction));
-  if (std::isfinite(f.radius_mm)) append(text, "# radius: {:.17g} mm\n", f.radius_mm);
+  put(text, "# point: {} mm\n", three(f.point_mm));
+  if (of.element != Element::sphere) put(text, "# direction: {}\n", three(f.direction));
+  if (std::isfinite(f.radius_mm)) put(text, "# radius: {:.17g} mm\n", f.radius_mm);
   if (std::isfinite(f.half_angle_rad))
-    append(text, "# half_angle: {:.17g} deg\n", f.half_angle_rad / rad_per_deg);
+    put(text, "# half_angle: {:.17g} deg\n", f.half_angle_rad / rad_per_deg);
   if (std::isfinite(f.minor_radius_mm))
-    append(text, "# minor_radius: {:.17g} mm\n", f.minor_radius_mm);
-  append(text, "# rms: {:.17g} mm\n# zone: {:.17g} mm\n", of.rms_mm, of.zone_mm);
+    put(text, "# minor_radius: {:.17g} mm\n", f.minor_radius_mm);
+  put(text, "# rms: {:.17g} mm\n# zone: {:.17g} mm\n", of.rms_mm, of.zone_mm);
 }
 
 /// Which of the sums must be 0 (Eq. 253), in words and figures.
 void append_balance(std::string& text, const AssociatedFeature& of, const Balance& balance) {
-  append(text, "# sum of lambda s n: {}\n", three(balance.force));
-  append(text, "# sum of lambda s (arm x n): {} mm\n", three(balance.moment_mm));
+  put(text, "# sum of lambda s n: {}\n", three(balance.force));
+  put(text, "# sum of lambda s (arm x n): {} mm\n", three(balance.moment_mm));
   const bool constrained = of.criterion == Criterion::constrained;
   if (constrained)
     text += "# (in addition, each has d / n of every one of the n points, Eq. 254)\n";
@@ -42,10 +36,10 @@ void append_balance(std::string& text, const AssociatedFeature& of, const Balanc
   const bool flat = of.element == Element::line || of.element == Element::plane;
   const bool tube = !of.in_plane && of.element == Element::circle;
   if (zone && !tube && !(of.element == Element::line && !of.in_plane))
-    append(text, "# sum of lambda s: {:.17g}\n", balance.size);
+    put(text, "# sum of lambda s: {:.17g}\n", balance.size);
   if (!flat && (of.element == Element::cone || of.element == Element::torus || (tube && zone)))
-    append(text, "# sum of lambda s {}: {:.17g}\n", of.element == Element::cone ? "b" : "n.r",
-           balance.second_size);
+    put(text, "# sum of lambda s {}: {:.17g}\n", of.element == Element::cone ? "b" : "n.r",
+        balance.second_size);
 }
 
 constexpr const char* how =
@@ -65,19 +59,18 @@ constexpr const char* how =
 std::string association_certificate(const AssociatedFeature& of, const PointText& points) {
   const AssociationCertificate& certificate = of.certificate;
   std::string text = "# schema: trueaxis.certificate/1\n";
-  append(text, "# version: {}\n# input: {} ({})\n", TRUEAXIS_VERSION, points.source, points.hash);
-  append(text, "# element: {}\n# criterion: {}\n# status: {}\n# points: {}\n",
-         element_names[static_cast<std::size_t>(of.element)],
-         criterion_names[static_cast<std::size_t>(of.criterion)],
-         association_status_names[static_cast<std::size_t>(of.status)], of.points);
+  put(text, "# version: {}\n# input: {} ({})\n", TRUEAXIS_VERSION, points.source, points.hash);
+  put(text, "# element: {}\n# criterion: {}\n# status: {}\n# points: {}\n",
+      element_names[static_cast<std::size_t>(of.element)],
+      criterion_names[static_cast<std::size_t>(of.criterion)],
+      association_status_names[static_cast<std::size_t>(of.status)], of.points);
   append_element(text, of);
-  append(text, "# stationarity: {:.3g}\n# gap: {:.3g} mm\n", certificate.stationarity,
-         certificate.gap_mm);
-  append(text, "# optimum: {}\n",
-         certificate.global ? std::string("global")
-         : certificate.starts == 1
-             ? std::string("local, from the algebraic or the Gaussian element")
-             : fmt::format("the best from {} starts", certificate.starts));
+  put(text, "# stationarity: {:.3g}\n# gap: {:.3g} mm\n", certificate.stationarity,
+      certificate.gap_mm);
+  put(text, "# optimum: {}\n",
+      certificate.global        ? std::string("global")
+      : certificate.starts == 1 ? std::string("local, from the algebraic or the Gaussian element")
+                                : fmt::format("the best from {} starts", certificate.starts));
   if (of.criterion == Criterion::gaussian)
     return text +
            "# How to check it by hand: the sum of d grad d over all points is 0, d the distance;\n"
@@ -90,9 +83,9 @@ std::string association_certificate(const AssociatedFeature& of, const PointText
   for (const AssociationCertificate::Contact& contact : certificate.contacts) {
     const Point3& p = points.points_mm[contact.point];
     const NearestSurface at = nearest_surface(of, p);
-    append(text, "{},{:.17g},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
-           points.lines[contact.point], p[0], p[1], p[2], contact.sign, at.distance_mm,
-           contact.multiplier, at.normal[0], at.normal[1], at.normal[2]);
+    put(text, "{},{:.17g},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
+        points.lines[contact.point], p[0], p[1], p[2], contact.sign, at.distance_mm,
+        contact.multiplier, at.normal[0], at.normal[1], at.normal[2]);
   }
   return text;
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibrate/diagnose/plans.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -8,6 +6,7 @@
 #include <optional>
 #include <ranges>
 
+#include "calibrate/diagnose/advise.hpp"
 #include "machine/screw.hpp"
 #include "math/linear_algebra.hpp"
 

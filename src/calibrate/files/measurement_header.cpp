@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "base/edit_distance.hpp"
 #include "base/number.hpp"
 #include "base/text.hpp"
 #include "format/units.hpp"

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
-#include <iterator>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "base/number.hpp"
 #include "trueaxis/control_table.hpp"
 #include "trueaxis/correction.hpp"
 
@@ -37,12 +34,6 @@ std::size_t nodes_of_length(double length_mm, double step_mm);
 
 /// @param c_step_rad a whole number of them is a turn
 CorrectionGrid correction_grid(const Correction& correction, double c_step_rad, double step_mm);
-
-/// Appends what fmt makes of it.
-template <class... T>
-void put(std::string& text, fmt::format_string<T...> form, T&&... values) {
-  fmt::format_to(std::back_inserter(text), form, std::forward<T>(values)...);
-}
 
 // One a format. What the control does with the numbers is that of its maker's manual, named there.
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/never.hpp"
+#include "base/number.hpp"
 #include "correct/files/table_files.hpp"
 #include "format/reason_words.hpp"
 #include "trueaxis/units.hpp"
@@ -14,13 +15,6 @@ namespace trueaxis {
 namespace {
 
 constexpr double um = 1.0 / mm_per_um;
-
-/// `value` with `decimals`, without the sign of a negative zero.
-std::string fixed(double value, int decimals) {
-  const std::string text = fmt::format("{:.{}f}", value, decimals);
-  const bool zero = text[0] == '-' && text.find_first_of("123456789") == std::string::npos;
-  return zero ? text.substr(1) : text;
-}
 
 std::string actuator_text(const Actuator& actuator) {
   const std::string response =

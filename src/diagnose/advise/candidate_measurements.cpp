@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "base/hundredths.hpp"
+#include "base/number.hpp"
 #include "diagnose/advise/advise.hpp"
 #include "math/golden_section.hpp"
 #include "math/statistics.hpp"

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/explain/axis_interval.hpp"
-#include "diagnose/explain/bend_slope.hpp"
 #include "diagnose/explain/form_class.hpp"
 #include "diagnose/explain/not_found.hpp"
 #include "diagnose/regression/size_prior.hpp"

@@ -6,6 +6,7 @@
 
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/regression/joint.hpp"
+#include "diagnose/search/dictionary.hpp"
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -40,5 +41,24 @@ struct AveragedAxis {
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
                           const std::vector<AmbiguousFinding>& findings,
                           const std::vector<Otherwise>& others = {});
+
+/// Scales what the causes add so that 2 u is the 95.45 % interval of the mixture about its mean
+/// (Eq. 95c). It is that in the worse direction of the axis at the worse end. Few of the causes
+/// that are not seen are present, and few of those are large, so that 2 standard deviations hold
+/// more or less.
+void set_interval(const LinearisationPoint& point, AveragedAxis& average);
+
+/// What u of the axis comes from, the largest share first.
+std::vector<AxisLimit> limits_of(const LinearisationPoint& point, const AveragedAxis& average);
+
+/// Before and after: the surface alone and with all terms, cross-validated block by block (Eqs.
+/// 101, 102). @param average the axis that is stated
+Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis& average,
+                  double noise_floor_mm);
+
+/// Amplitude of both residuals over the order, in steps of a resolution cell and at most 400 bins.
+std::vector<SpectrumBin> spectrum_of(const LinearisationPoint& point, const Resolution& resolution,
+                                     const std::vector<double>& before_mm,
+                                     const std::vector<double>& after_mm);
 
 }  // namespace trueaxis::diagnose_detail

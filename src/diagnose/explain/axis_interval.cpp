@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/explain/axis_interval.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
 
+#include "diagnose/explain/averaged_axis.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/normal_mixture.hpp"
 

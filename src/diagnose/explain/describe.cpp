@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/explain/describe.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/explain/explanation.hpp"
 #include "diagnose/explain/named_values.hpp"
 #include "diagnose/search/causes.hpp"
 #include "trueaxis/units.hpp"

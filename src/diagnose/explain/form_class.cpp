@@ -10,12 +10,12 @@
 
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/local_forms.hpp"
+#include "infer/classes.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double told_for_sure = 4.1;  // d with Φ(d/2) = 0.98
 constexpr int tried[] = {12, 16, 20, 24, 30, 36, 48, 60, 72, 90, 120};
 
 bool is_lobes(const Hypothesis& h) {
@@ -94,7 +94,7 @@ int angles_that_tell(const Problem& problem, const Joint& named, const Joint& ot
         linearise_at(sections_of(problem, angles), point.clampings, point.base, point.bore);
     const double d2 =
         std::min(distance2(more, named, other.terms), distance2(more, other, named.terms));
-    if (d2 >= told_for_sure * told_for_sure) return angles;
+    if (d2 >= sure_distance * sure_distance) return angles;
   }
   return 0;
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/explain/gain.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
+#include "diagnose/explain/averaged_axis.hpp"
 #include "infer/cross_validation.hpp"
 #include "math/fourier_sums.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/explain/stated.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "diagnose/explain/explanation.hpp"
 
 namespace trueaxis::diagnose_detail {
 Effect as_stated(Effect effect, const Influence& influence) {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <iterator>
 
-#include "base/hundredths.hpp"
+#include "base/number.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/refit/criterion.hpp"
-
 #include <cmath>
 #include <limits>
 
 #include "diagnose/refit/places_before.hpp"
+#include "diagnose/refit/relinearised_fit.hpp"
 #include "diagnose/search/scan.hpp"
 
 namespace trueaxis::diagnose_detail {

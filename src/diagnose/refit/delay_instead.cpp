@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "diagnose/refit/timing.hpp"
-#include "diagnose/refit/turned_passes.hpp"
 #include "diagnose/search/coarse_to_fine.hpp"
 #include "infer/classes.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fit/apex_interval.hpp"
+#include "fit/describe.hpp"
 #include "fit/probe_height.hpp"
 #include "math/linear_algebra.hpp"
 #include "surface/surface.hpp"

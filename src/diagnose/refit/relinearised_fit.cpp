@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "base/threads.hpp"
-#include "diagnose/refit/criterion.hpp"
 #include "diagnose/refit/places_before.hpp"
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/noise.hpp"

@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "diagnose/refit/behind_play.hpp"
-#include "diagnose/refit/criterion.hpp"
 #include "diagnose/refit/extended_fit.hpp"
+#include "diagnose/regression/joint.hpp"
 #include "diagnose/search/ideal_model.hpp"
 #include "diagnose/search/search.hpp"
 
 namespace trueaxis::diagnose_detail {
+
+/// N ln RSS + k ln N (Schwarz 1978); what shapes a term, as the date of a slip, counts in k.
+double criterion_of(const Joint& joint);
 
 /// Surface and terms fitted about the first solution of both: about the part without the effects
 /// that were found, probed when the delay that was found says. At 240/min 2 ms are 3°, and 3° of an

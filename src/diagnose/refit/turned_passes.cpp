@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/refit/turned_passes.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "diagnose/refit/delay_instead.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"

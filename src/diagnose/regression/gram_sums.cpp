@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/regression/gram_sums.hpp"
-
+#include "diagnose/regression/normal_equations.hpp"
 #include "math/gram.hpp"
 #include "math/wide_gram.hpp"
 

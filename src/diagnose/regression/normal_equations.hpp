@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hwy/aligned_allocator.h>
+
 #include <Eigen/Dense>
 #include <cstddef>
 #include <memory>
@@ -10,11 +12,63 @@
 #include "diagnose/geometry/condense.hpp"
 #include "diagnose/geometry/hypothesis.hpp"
 #include "diagnose/geometry/observation_mask.hpp"
-#include "diagnose/regression/gram_sums.hpp"
-#include "diagnose/regression/white_columns.hpp"
 #include "infer/gram.hpp"
 
 namespace trueaxis::diagnose_detail {
+
+/// Columns of some readings as computed and as whitened, in aligned memory padded with zeros.
+class WhiteColumns {
+ public:
+  /// @param history readings before the first that the others are predicted from
+  /// @param rows at most
+  WhiteColumns(std::size_t columns, std::size_t history, std::size_t rows);
+
+  std::span<double* const> raw() const { return raw_column_; }
+  /// y_i − Σ φ_j y_{i−j} of `rows` rows, the first of them after `lead` others.
+  void whiten(const std::vector<double>& phi, std::size_t lead, std::size_t rows);
+  /// A row that comes `run` readings after the first of its run, fewer than the order.
+  void begin_run(const std::vector<double>& phi, std::size_t lead, std::size_t row,
+                 std::size_t run);
+  /// A row that does not count.
+  void drop(std::size_t row);
+  /// Those of `rows` rows, padded; the same again.
+  std::span<const double* const> white(std::size_t rows);
+  std::span<const double* const> white() const { return view_; }
+  /// Leaves only what is whitened.
+  void forget_raw();
+
+ private:
+  std::size_t history_;
+  hwy::AlignedFreeUniquePtr<double[]> raw_, white_;
+  std::vector<double*> raw_column_, white_column_;
+  std::vector<const double*> view_;
+};
+
+/// Which products are made of columns that are appended to others.
+struct Appended {
+  std::size_t before = 0;         ///< columns that are there already
+  std::size_t together = 0;       ///< and those that are fitted with them
+  std::vector<std::size_t> ends;  ///< of the groups after these that are judged one by one
+
+  std::size_t columns() const { return ends.empty() ? together : ends.back(); }
+};
+
+/// Sums over readings of the products that columns appended to others have with those, with each
+/// other where they are fitted together, and within a group that is judged alone.
+class GramSums {
+ public:
+  /// @param of outlives this
+  explicit GramSums(const Appended& of);
+
+  /// Columns are those there and those appended, 64-byte aligned, padded as of a WideBlock.
+  void add(std::span<const double* const> columns, std::size_t rows);
+  /// Adds them to the rows and columns of a symmetric matrix of all columns.
+  void add_to(Eigen::MatrixXd& gram) const;
+
+ private:
+  const Appended* of_;
+  std::vector<double> fitted_, cross_, apart_, groups_;
+};
 
 using namespace infer;
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/regression/white_columns.hpp"
-
 #include <algorithm>
 
+#include "diagnose/regression/normal_equations.hpp"
 #include "math/autoregression.hpp"
 
 namespace trueaxis::diagnose_detail {

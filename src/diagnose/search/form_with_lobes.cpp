@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/search/form_with_lobes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "diagnose/search/causes.hpp"
+#include "diagnose/search/stepwise_search.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::diagnose_detail {

@@ -11,7 +11,6 @@
 #include "diagnose/search/line_norms.hpp"
 #include "diagnose/search/scan_fringes.hpp"
 #include "diagnose/search/scan_list.hpp"
-#include "diagnose/search/turned_sums.hpp"
 #include "math/fourier_sums.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"

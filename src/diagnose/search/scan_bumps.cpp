@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/search/scan_bumps.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "diagnose/geometry/contacts.hpp"
+#include "diagnose/search/propose.hpp"
 #include "diagnose/search/scan.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"

@@ -8,7 +8,6 @@
 #include "diagnose/regression/joint.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
-#include "diagnose/search/form_with_lobes.hpp"
 #include "diagnose/search/judge.hpp"
 #include "diagnose/search/scan.hpp"
 #include "diagnose/search/stepwise_search.hpp"

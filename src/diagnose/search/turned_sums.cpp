@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/search/turned_sums.hpp"
-
 #include <algorithm>
 #include <span>
 #include <utility>
 
+#include "diagnose/search/scan_fringes.hpp"
 #include "math/sincos.hpp"
 
 namespace trueaxis::diagnose_detail {

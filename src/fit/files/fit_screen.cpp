@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/counted.hpp"
-#include "base/hundredths.hpp"
+#include "base/number.hpp"
 #include "fit/files/fit_files.hpp"
 #include "fit/probe_height.hpp"
 #include "format/text_layout.hpp"

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "form/files/form_files.hpp"
-#include "format/size_text.hpp"
 #include "format/text_layout.hpp"
 
 namespace trueaxis {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/hundredths.hpp"
+#include "base/number.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/job_results.hpp"
 #include "trueaxis/units.hpp"

@@ -10,10 +10,10 @@
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_files.hpp"
+#include "job/doubts.hpp"
 #include "job/files/feedback_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_words.hpp"
-#include "job/next_measurement.hpp"
 #include "job/references.hpp"
 #include "trueaxis/units.hpp"
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/hundredths.hpp"
+#include "base/number.hpp"
 #include "base/text.hpp"
 #include "form/files/form_files.hpp"
 #include "format/text_layout.hpp"

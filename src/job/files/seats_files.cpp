@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "base/hundredths.hpp"
+#include "base/number.hpp"
 #include "fit/files/fit_files.hpp"
-#include "format/size_text.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/job_results.hpp"
 #include "job/references.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "calibrate/estimate/geometry.hpp"
 #include "job/machine/machine_job_steps.hpp"
 
 namespace trueaxis::machine_job {
 namespace {
 
-constexpr double all_round_rad = 300.0 * rad_per_deg;  // as the diagnosis has it
 constexpr double leeway_share = 0.1, leeway_mm = 1.0, leeway_rad = rad_per_deg;
 
 void widen(double& low, double& high, double value, bool first) {
@@ -43,7 +43,7 @@ bool beyond_measured(const AxisRange& range) {
   if (!range.program) return false;
   const double span = range.measured_high - range.measured_low;
   const bool rotary = is_rotary(range.axis);
-  if (rotary && span >= all_round_rad) return false;
+  if (rotary && span >= calibrate_detail::whole_turn) return false;
   const double leeway = std::max(leeway_share * span, rotary ? leeway_rad : leeway_mm);
   return (*range.program)[0] < range.measured_low - leeway ||
          (*range.program)[1] > range.measured_high + leeway;

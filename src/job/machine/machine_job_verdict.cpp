@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "compensate/largest_on_way.hpp"
 #include "job/machine/machine_doubts.hpp"
 #include "job/machine/machine_job_steps.hpp"
 
@@ -20,7 +21,6 @@ Reason expected(const MachineJobVerdict& v) {
 /// Why the new program is no better than the old one.
 std::optional<Reason> worse(const MachineJobResult& result, const MachineJobVerdict& v) {
   if (!result.compensation || result.tips.empty()) return {};
-  constexpr double stated_to = 1.01;
   const double by_decimals_mm = 2.0 * result.compensation->rounding.position.value;
   if (v.path_after_mm() <= stated_to * v.path_before_mm() + by_decimals_mm) return {};
   return Reason{

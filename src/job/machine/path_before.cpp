@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double even_rad = 20.0 * rad_per_deg;  // of rotary axes, over which a way is even
-
 /// A block, a curve on which axes go evenly, or a chord of an arc: by the parabola through its ends
 /// and the middle of its arc.
 class WayBefore {
@@ -49,7 +47,7 @@ class WayBefore {
     for (std::size_t k = 3; k < axis_count; ++k)
       turn += std::abs(to_.commanded[k] - from_.commanded[k]);
     const auto parts =
-        2 * static_cast<std::size_t>(std::ceil(std::min(turn / even_rad, 250.0)) + 1);
+        2 * static_cast<std::size_t>(std::ceil(std::min(turn / even_turn_rad, 250.0)) + 1);
     const auto off = [this](double s) { return off_mm(s); };
     return LargestOnWay(off, parts).value(of_interest_mm);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "live/live_state.hpp"
 #include "measure/files/stream_csv.hpp"
 
 namespace trueaxis {
@@ -45,5 +46,17 @@ class ArrivingText {
   std::string head_, lines_, rest_, all_;
   std::size_t lost_ = 0, tried_ = 0;  ///< of `lines_`, bytes that no stream could be read of
 };
+
+/// A picture of 20 lines: axis, U and the residuals over C.
+std::string live_picture(const LiveState& state, std::optional<double> wanted_U_mm);
+
+/// The same for a program: one line of JSON, schema trueaxis.watch/1.
+std::string live_json_line(const LiveState& state, std::optional<double> wanted_U_mm);
+
+/// The part slipped, or the probe is deaf; empty: neither.
+std::string live_alarm(const LiveState& state);
+
+/// The U that was asked for is reached.
+bool is_enough(const LiveState& state, std::optional<double> wanted_U_mm);
 
 }  // namespace trueaxis

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live/files/live_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "base/number.hpp"
 #include "format/json.hpp"
+#include "live/files/arriving_text.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

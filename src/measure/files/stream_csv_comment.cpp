@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "base/edit_distance.hpp"
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/units.hpp"
 #include "measure/files/stream_csv_metadata.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/machine/arc_way.hpp"
-
 #include <cmath>
 #include <numbers>
+
+#include "simulate/machine/control.hpp"
 
 namespace trueaxis::virtual_machine {
 namespace {

@@ -6,7 +6,6 @@
 #include "calibrate/files/measurement_csv.hpp"
 #include "compensate/program_axes.hpp"
 #include "format/file.hpp"
-#include "format/path_text.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
 #include "job/machine/files/machine_job_files.hpp"

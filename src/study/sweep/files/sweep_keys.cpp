@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/sweep/files/sweep_keys.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "base/text.hpp"
 #include "format/nearest_key.hpp"
 #include "format/units.hpp"
+#include "study/sweep/files/sweep_axes.hpp"
 
 namespace trueaxis {
 
