@@ -24,7 +24,8 @@ bool turns_alone(const AxisPositions& from, const AxisPositions& to) {
 }
 
 bool means_own_way(const AxisPositions& from, const AxisPositions& to) {
-  return most_of(from, to, 3, axis_count) > even_turn_rad || turns_alone(from, to);
+  constexpr double rounding_rad = 1e-9;  // of positions: exactly 20° is not more
+  return most_of(from, to, 3, axis_count) > even_turn_rad + rounding_rad || turns_alone(from, to);
 }
 
 NominalWay::NominalWay(const CompensationTask& task, const nc::Move& move,

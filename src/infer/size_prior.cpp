@@ -34,14 +34,15 @@ constexpr std::array<Node, 9> nodes{{{-2.0, 0.054},
                                      {6.0, 1e-5},
                                      {8.0, 1e-6}}};
 
-/// The scale of a last pair over that of the first, in their own spreads.
-constexpr std::array<Node, 7> ratios{{{-2.0, 0.054},
-                                      {-1.33, 0.125},
-                                      {-0.67, 0.2},
-                                      {0.0, 0.242},
-                                      {0.67, 0.2},
-                                      {1.33, 0.125},
-                                      {2.0, 0.054}}};
+/// The scale of a last pair over that of the first, in spreads.
+constexpr std::array ratios{-5.0, -4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
+
+/// Weight of a scale that many spreads above the median: the law whose nodes those above are.
+double weight_at(double spreads) {
+  const double beyond = std::max(0.0, std::abs(spreads) - 4.5);
+  return std::max(0.399 * std::exp(-0.5 * spreads * spreads),
+                  1e-4 * std::pow(10.0, -beyond / 1.75));
+}
 
 /// A term's columns after others, and the residual of the readings without it.
 struct Beside {
@@ -55,11 +56,11 @@ struct Beside {
 struct Scaled {
   SmallVector scale, values, along;
   Small axes;
-  double floor = 0.0;     ///< of a value: below it nothing of the column is left
-  double log_weight = 0;  ///< of the scales
+  double floor = 0.0;  ///< of a value: below it nothing of the column is left
+  double ratio = 0.0;  ///< of the scale of the last pair, in spreads
 
-  Scaled(const Beside& beside, const SmallVector& scales, double weight)
-      : scale(scales), log_weight(std::log(weight)) {
+  Scaled(const Beside& beside, const SmallVector& scales, double of_last)
+      : scale(scales), ratio(of_last) {
     const Small scaled = scale.asDiagonal() * beside.gram * scale.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Small> eigen(scaled);
     values = eigen.eigenvalues(), axes = eigen.eigenvectors();
@@ -72,12 +73,12 @@ struct Scaled {
 /// Scales of a term, one for all columns or, for the last pair, one of several ratios.
 std::vector<Scaled> scaled_of(const SizePrior& prior, const Beside& beside,
                               const SmallVector& scale) {
-  if (!(prior.spread_of_last > 0.0)) return {Scaled(beside, scale, 1.0)};
+  if (!prior.own_scale_of_last) return {Scaled(beside, scale, 0.0)};
   std::vector<Scaled> out;
-  for (const Node& ratio : ratios) {
+  for (const double ratio : ratios) {
     SmallVector with = scale;
-    with.tail(2) *= std::exp(prior.spread_of_last * ratio.at);
-    out.emplace_back(beside, with, ratio.weight);
+    with.tail(2) *= std::exp(prior.spread * ratio);
+    out.emplace_back(beside, with, ratio);
   }
   return out;
 }
@@ -123,7 +124,9 @@ Weighed weighed(const SizePrior& prior, const Beside& beside, std::vector<SizePa
       widths += std::log(value * factor2(k) / variance);
     }
     const double out = freedom * std::log(std::max(1.0 - shrunk / rss, 1e-12)) + widths;
-    return known ? out - 2.0 * std::log(weight_of(k)) - 2.0 * at.log_weight : out;
+    if (!known) return out;
+    const double of_last = prior.own_scale_of_last ? weight_at(nodes[k].at + at.ratio) : 1.0;
+    return out - 2.0 * std::log(weight_of(k) * of_last);
   };
   std::array<std::array<double, nodes.size() + 1>, ratios.size()> criterion{};
   double best = 1e300;

@@ -14,9 +14,7 @@ struct SizePrior {
   double spread = 1.0;     ///< standard deviation of the logarithm of the scale
   Eigen::VectorXd least{}, most{};  ///< what a column may be at all; empty: anything
   double most_of_first = 0.0;       ///< what the last pair may be of the first one; 0: anything
-  /// Standard deviation of the logarithm of the scale of the last pair of four over that of the
-  /// first, each as often as the other larger; 0: one scale (Eq. 79a).
-  double spread_of_last = 0.0;
+  bool own_scale_of_last = false;   ///< whether the last pair of four has a scale of its own
   /// Of a size that a user states: standard deviation in medians of what it may be off, 0: nothing
   /// is stated; and the probability that the statement is wrong, and the size a typical one.
   double stated = 0.0, doubt = 1.0;

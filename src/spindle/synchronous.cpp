@@ -23,6 +23,10 @@ constexpr double standing_out = 16.0;     // of the median power: noise does so 
 constexpr double trace = 0.01;            // RMS over that of all orders: what the second order does
 constexpr double least_excess = 4.0;      // σ of a mean power above that of noise
 constexpr double least_away = 3.0;        // nearer lines may be the order's own skirts
+constexpr double lines_of_motion = 8.0;   // on each side, that tell a motion close to an order
+constexpr double most_of_lines = 0.8;     // of their power: one motion that explains them
+constexpr double step_of_motion = 0.02;   // lines
+constexpr double least_off = 0.05;        // lines: what is nearer is the order
 
 /// Legendre P1 … P3 over the order of the readings, −1 … 1.
 std::vector<std::vector<double>> drift_columns(std::size_t readings, std::size_t degrees) {
@@ -43,8 +47,75 @@ std::vector<std::vector<double>> drift_columns(std::size_t readings, std::size_t
 /// A line of the spectrum next to an order, `away` in lines.
 struct NearLine {
   Eigen::VectorXcd at;
-  double away;
+  double away;  ///< towards higher orders
 };
+
+/// A motion of one frequency less than `least_away` lines off an order: as nₓ = n + x/K it reads like
+/// the order, and what the order has not taken of it is in the lines next to it.
+struct NearMotion {
+  Eigen::VectorXcd in_order;    ///< what the order has taken of it; empty: there is none
+  Eigen::MatrixXcd covariance;  ///< of that
+};
+
+/// sinc(x − j) (−1)ʲ: what a motion at x lines leaves in line j.
+double in_line(double x, double j) {
+  const double off = 0.5 * two_pi * (x - j);
+  const double size = std::abs(off) < 1e-9 ? 1.0 : std::sin(off) / off;
+  return std::fmod(std::abs(j), 2.0) > 0.5 ? -size : size;
+}
+
+/// The motion that explains the lines, if these stand out, averaged over where it may lie (Eq.
+/// 143a); and what the lines have without it.
+NearMotion take_motion(std::vector<NearLine>& near) {
+  std::vector<NearLine*> lines;
+  std::vector<double> powers;
+  double all = 0.0;
+  for (NearLine& line : near) {
+    powers.push_back(line.at.squaredNorm());
+    if (std::abs(line.away) > lines_of_motion) continue;
+    lines.push_back(&line);
+    all += powers.back();
+  }
+  struct Place {
+    double x, explained, squares;
+    Eigen::VectorXcd amplitude;
+  };
+  std::vector<Place> places;
+  for (double x = -least_away + step_of_motion; x < least_away; x += step_of_motion) {
+    if (std::abs(x) < least_off) continue;
+    Place place{x, 0.0, 0.0, Eigen::VectorXcd::Zero(near.front().at.size())};
+    for (const NearLine* line : lines) {
+      const double pattern = in_line(x, line->away);
+      place.amplitude += pattern * line->at;
+      place.squares += pattern * pattern;
+    }
+    place.amplitude /= place.squares;
+    place.explained = place.squares * place.amplitude.squaredNorm();
+    places.push_back(std::move(place));
+  }
+  const Place* best = &*std::ranges::max_element(places, {}, &Place::explained);
+  const double usual = median(powers);
+  if (!(best->explained > std::max(standing_out * usual, most_of_lines * all))) return {};
+  const auto sensors = static_cast<double>(near.front().at.size());
+  const double noise = std::max(usual, (all - best->explained) /
+                                           std::max(static_cast<double>(lines.size()) - 1.5, 1.0)) /
+                       sensors;
+  NearMotion out{Eigen::VectorXcd::Zero(best->amplitude.size()),
+                 Eigen::MatrixXcd::Zero(best->amplitude.size(), best->amplitude.size())};
+  double sum = 0.0;
+  for (const Place& place : places) {
+    const double weight = std::exp((place.explained - best->explained) / noise);
+    const double share = in_line(place.x, 0.0);
+    sum += weight;
+    out.in_order += weight * share * place.amplitude;
+    out.covariance += weight * share * share * (place.amplitude * place.amplitude.adjoint());
+    out.covariance.diagonal().array() += weight * share * share * noise / place.squares;
+  }
+  out.in_order /= sum;
+  out.covariance = out.covariance / sum - out.in_order * out.in_order.adjoint();
+  for (NearLine* line : lines) line->at -= in_line(best->x, line->away) * best->amplitude;
+  return out;
+}
 
 /// Mean of the lines. One that is far above the others is a motion of its own, which reaches
 /// the order by its leakage only: |sin(πj)/(πj)|², ½/(πj)² in the mean over where it really lies.
@@ -58,7 +129,7 @@ Eigen::MatrixXcd covariance_of(const std::vector<NearLine>& near) {
   double taken = 0.0;
   for (const NearLine& line : near) {
     const double phase = 0.5 * two_pi * line.away;
-    if (line.away >= least_away && line.at.squaredNorm() > standing_out * usual) {
+    if (std::abs(line.away) >= least_away && line.at.squaredNorm() > standing_out * usual) {
       leakage += 0.5 / (phase * phase) * line.at * line.at.adjoint();
     } else {
       mean += line.at * line.at.adjoint();
@@ -227,6 +298,7 @@ void SynchronousFit::add_covariance(SynchronousPart& part) const {
   const std::size_t reach = (std::max<std::size_t>(1, lines_wanted / L) + 1) * L;
   const std::size_t count = top * L + reach + 1;
   const FourierSums lines(c_rad_, 0.0, 1.0 / static_cast<double>(L), count);
+  const double begin_rad = std::ranges::min(c_rad_);
   const Index sensors = part.asynchronous_mm.cols();
   std::vector<std::span<const double>> columns;
   for (Index s = 0; s < sensors; ++s)
@@ -236,19 +308,28 @@ void SynchronousFit::add_covariance(SynchronousPart& part) const {
   part.freedom = static_cast<double>(lines_wanted);
   for (std::size_t n = 0; n <= top; ++n) {
     std::vector<NearLine> near;
-    const auto take = [&](std::size_t line, std::size_t away) {
+    const auto take = [&](std::size_t line, double away) {
       Eigen::VectorXcd at(sensors);
-      for (Index s = 0; s < sensors; ++s) at[s] = scale * sums[static_cast<std::size_t>(s)][line];
-      near.push_back({std::move(at), static_cast<double>(away)});
+      const Complex turned = std::polar(scale, away / static_cast<double>(L) * begin_rad);
+      for (Index s = 0; s < sensors; ++s) at[s] = turned * sums[static_cast<std::size_t>(s)][line];
+      near.push_back({std::move(at), away});
     };
     // The nearest lines on both sides that are not an order; below half an order is the drift.
     for (std::size_t j = 1; near.size() < lines_wanted && j <= reach; ++j) {
       if (j % L == 0) continue;
-      if (n * L > j + L / 2) take(n * L - j, j);
-      if (n * L + j > L / 2 && n * L + j < count) take(n * L + j, j);
+      const auto away = static_cast<double>(j);
+      if (n * L > j + L / 2) take(n * L - j, -away);
+      if (n * L + j > L / 2 && n * L + j < count) take(n * L + j, away);
     }
     part.freedom = std::min(part.freedom, static_cast<double>(near.size()));
+    const NearMotion motion = n < 2 ? NearMotion{} : take_motion(near);
     part.covariance.push_back(inflation_[n] * covariance_of(near));
+    if (motion.in_order.size() == 0) continue;
+    part.covariance.back() += motion.covariance;
+    part.harmonics.col(static_cast<Index>(n)) -= motion.in_order;
+    for (std::size_t i = 0; i < c_rad_.size(); ++i)
+      part.asynchronous_mm.row(static_cast<Index>(i)) +=
+          (std::polar(1.0, static_cast<double>(n) * c_rad_[i]) * motion.in_order.transpose()).real();
   }
 }
 

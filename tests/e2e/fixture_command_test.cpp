@@ -60,6 +60,7 @@ TEST_F(FixtureCommand, TableOneOfHongAndYeh) {
   EXPECT_EQ(lines_of(json, "fanuc.g68.2.p0"),
             std::vector<std::string>{
                 "G68.2 X-0.181862 Y0.114244 Z-0.066156 I-11.506192 J0.108786 K11.499672"});
+  EXPECT_FALSE(contains(done.out, "± 0")) << "digits of what is stated as exact are lost";
   EXPECT_TRUE(contains(done.out, "SPA+0.106602 SPB-0.021688 SPC-0.006540"));
   const CommandStreams all = command("setup locators " + of_data("hong.toml") + " --verbose");
   EXPECT_TRUE(contains(all.out, "alpha 0.1066  beta -0.0217  gamma -0.0065 deg")) << all.out;

@@ -12,7 +12,7 @@ namespace {
 
 using virtual_lathe::Scenario;
 
-Diagnosis of_long_part(std::vector<virtual_lathe::EffectSpec> effects) {
+Diagnosis of_long_part(std::vector<virtual_lathe::Effect> effects) {
   Scenario scenario = one_pass(0.0, 50.0, 1e-3);
   scenario.seed = 7;
   scenario.plan.passes[0].end_mm = 200.0, scenario.plan.passes[0].feed_mm_per_rev = 4.0;
@@ -63,11 +63,11 @@ TEST(AgreeingCauses, LobesThatShrinkMayBeThePart) {
 // No order of a crude part is given to the spindle for a growth that is small for its lobes.
 TEST(AgreeingCauses, AllOrdersOfACrudePartAreOfThePart) {
   const auto lobes = [](double order, double mm, double phase) {
-    return virtual_lathe::EffectSpec{
+    return virtual_lathe::Effect{
         "part.roundness", {{"order", order}, {"amplitude_mm", mm}, {"phase_rad", phase}}};
   };
   const auto growth = [](double order, double mm, double phase) {
-    return virtual_lathe::EffectSpec{"part.roundness",
+    return virtual_lathe::Effect{"part.roundness",
                                      {{"order", order},
                                       {"amplitude_mm", 0.0},
                                       {"growth_mm", mm},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensate/nominal_way.hpp"
 #include "support/program_case.hpp"
 
 namespace trueaxis::testing {
@@ -187,6 +188,18 @@ TEST(CompensatePiecesLaw, PiecesUnderInverseTimeTakeTheSameTime) {
     time_min += 1.0 / std::strtod(line.c_str() + line.find('F') + 1, nullptr);
   EXPECT_GT(result.blocks_inserted, 3u);
   EXPECT_NEAR(time_min, 1.0 / 3.0, 1e-12);
+}
+
+// From 20° to 40° are 20°, and not more by the rounding of a radian.
+TEST(CompensatePiecesLaw, ExactlyTwentyDegreesAreEven) {
+  for (int from = -180; from < 180; from += 20) {
+    AxisPositions before{}, after{};
+    before[5] = from * rad_per_deg, after[5] = (from + 20) * rad_per_deg;
+    after[0] = 10.0;
+    EXPECT_FALSE(means_own_way(before, after)) << from;
+    after[5] = (from + 20.001) * rad_per_deg;
+    EXPECT_TRUE(means_own_way(before, after)) << from;
+  }
 }
 
 }  // namespace

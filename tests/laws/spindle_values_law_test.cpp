@@ -44,6 +44,30 @@ TEST(SpindleValuesLaw, SynchronousAsynchronousAndTotalOfTwoCosines) {
   EXPECT_NEAR(radial.runs.front().turns, 20.0, 0.01);
 }
 
+// Half a line off order 2 and less, a motion reads like the order in the time of 20 turns, and had
+// moved it by five U. What the lines next to the order hold of it tells how much.
+TEST(SpindleValuesLaw, AMotionCloseToAnOrderIsNotTakenForIt) {
+  constexpr double a = 3e-4;
+  int held = 0, all = 0;
+  for (const double order : {1.96, 1.985, 2.03})
+    for (const int seed : {1, 2, 3}) {
+      SpindleBench bench(1);
+      bench.sensors_deg({0, 55, 113.2});
+      bench.passes({1}, 20.0, 256.0);
+      virtual_lathe::Effect near = motion("spindle.asynchronous", order, 0.5 * a);
+      near.parameters["phase_rad"] = 2.0 * seed;
+      bench.scenario.seed = static_cast<std::uint64_t>(seed);
+      bench.scenario.noise.sigma_mm = 100.0 * nm;
+      bench.scenario.effects = {motion("spindle.radial_synchronous", 2.0, a), near};
+      const SpindleResult result = bench.separate();
+      const Estimate& value = result.radial->sensitive.synchronous;
+      held += holds(value, 2.0 * a) ? 1 : 0;
+      EXPECT_LT(value.u, 0.2 * a) << order;
+      ++all;
+    }
+  EXPECT_GE(held, all - 2);  // binomial of 95 %: fewer in 1 of 100
+}
+
 /// A face probed along Z at one X.
 virtual_lathe::Scenario face_scenario(double x_mm) {
   virtual_lathe::Scenario scenario;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -90,7 +89,7 @@ SizePrior size_prior(const Hypothesis& h) {
     out.least = out.least.cwiseMax(-most_mm);
   }
   out.spread *= h.effect->size_spread;
-  if (has_two_sizes(h)) out.spread_of_last = std::numbers::sqrt2 * out.spread;
+  out.own_scale_of_last = has_two_sizes(h);
   if (h.effect->stated && count == 1 && out.median(0) > 0.0) {
     out.stated = std::max(h.effect->stated->u / out.median(0), exact);
     out.doubt = wrong_statement;
