@@ -56,7 +56,8 @@ std::string_view why_not_g(int g_tenths) {
 std::string_view why_not_m(int m) {
   if (m == 47 || m == 96) return jump;
   if (m == 128 || m == 129)
-    return "makes X Y Z the tip on HEIDENHAIN (TCPM): write G43.4 or G49, or remove it and state mode = "
+    return "makes X Y Z the tip on HEIDENHAIN (TCPM): write G43.4 or G49, or remove it and state "
+           "mode = "
            "\"tip\"";
   if (m == 61) return "says which tool is in the spindle: write T and M6";
   if (m >= 70 && m <= 73) return "may save or restore G codes: write the codes themselves";

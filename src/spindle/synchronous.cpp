@@ -50,8 +50,8 @@ struct NearLine {
   double away;  ///< towards higher orders
 };
 
-/// A motion of one frequency less than `least_away` lines off an order: as nₓ = n + x/K it reads like
-/// the order, and what the order has not taken of it is in the lines next to it.
+/// A motion of one frequency less than `least_away` lines off an order: as nₓ = n + x/K it reads
+/// like the order, and what the order has not taken of it is in the lines next to it.
 struct NearMotion {
   Eigen::VectorXcd in_order;    ///< what the order has taken of it; empty: there is none
   Eigen::MatrixXcd covariance;  ///< of that
@@ -64,8 +64,8 @@ double in_line(double x, double j) {
   return std::fmod(std::abs(j), 2.0) > 0.5 ? -size : size;
 }
 
-/// The motion that explains the lines, if these stand out, averaged over where it may lie (Eq.
-/// 143a); and what the lines have without it.
+/// The motion that explains the lines, if their power is far above the others', averaged over where
+/// it may lie (Eq. 143a). The lines keep what they have without it.
 NearMotion take_motion(std::vector<NearLine>& near) {
   std::vector<NearLine*> lines;
   std::vector<double> powers;
@@ -329,7 +329,8 @@ void SynchronousFit::add_covariance(SynchronousPart& part) const {
     part.harmonics.col(static_cast<Index>(n)) -= motion.in_order;
     for (std::size_t i = 0; i < c_rad_.size(); ++i)
       part.asynchronous_mm.row(static_cast<Index>(i)) +=
-          (std::polar(1.0, static_cast<double>(n) * c_rad_[i]) * motion.in_order.transpose()).real();
+          (std::polar(1.0, static_cast<double>(n) * c_rad_[i]) * motion.in_order.transpose())
+              .real();
   }
 }
 

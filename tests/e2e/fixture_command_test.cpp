@@ -2,7 +2,9 @@
 // `trueaxis setup locators` and `trueaxis setup datums` as a user meets them, and their errors in
 // the machine.
 #include <cmath>
+#include <fstream>
 #include <functional>
+#include <regex>
 
 #include "support/chain_matrices.hpp"
 #include "support/command_fixture.hpp"
@@ -60,7 +62,6 @@ TEST_F(FixtureCommand, TableOneOfHongAndYeh) {
   EXPECT_EQ(lines_of(json, "fanuc.g68.2.p0"),
             std::vector<std::string>{
                 "G68.2 X-0.181862 Y0.114244 Z-0.066156 I-11.506192 J0.108786 K11.499672"});
-  EXPECT_FALSE(contains(done.out, "± 0")) << "digits of what is stated as exact are lost";
   EXPECT_TRUE(contains(done.out, "SPA+0.106602 SPB-0.021688 SPC-0.006540"));
   const CommandStreams all = command("setup locators " + of_data("hong.toml") + " --verbose");
   EXPECT_TRUE(contains(all.out, "alpha 0.1066  beta -0.0217  gamma -0.0065 deg")) << all.out;
@@ -74,6 +75,15 @@ TEST_F(FixtureCommand, TableOneOfHongAndYeh) {
   const CommandStreams coarse = command("setup locators " + of_data("hong.toml") + " --decimals 4");
   EXPECT_TRUE(contains(coarse.out, "TRANS X-0.1819 Y0.1142 Z-0.0662\n")) << coarse.out;
   EXPECT_EQ(command("setup locators " + of_data("hong.toml") + " --decimals 2").exit_code, 2);
+}
+
+// A value that is stated as exact keeps its digits.
+TEST_F(FixtureCommand, ExactTipsKeepTheDigitsOfTheTurn) {
+  const std::string exact =
+      std::regex_replace(read_text(of_data("hong.toml")), std::regex("u_um = [0-9.]+"), "u_um = 0");
+  std::ofstream(folder_ / "exact.toml") << exact;
+  const CommandStreams done = command("setup locators exact.toml");
+  EXPECT_TRUE(contains(done.out, "A0W 0.1066, B0W -0.0217, C0W -0.0065 deg")) << done.out;
 }
 
 // Three locators 1 µm uncertain: u of the height at their centre is 1/√3 µm and of D at any point

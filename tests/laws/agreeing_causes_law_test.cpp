@@ -54,7 +54,8 @@ TEST(AgreeingCauses, LobesThatShrinkMayBeThePart) {
       {{"part.roundness",
         {{"order", 3}, {"amplitude_mm", 5e-3}, {"growth_mm", -2e-3}, {"phase_rad", 0.7}}}});
   ASSERT_EQ(found.findings.size(), 1u);
-  double part = found.findings[0].effect() == "part.roundness" ? found.findings[0].probability : 0.0;
+  double part =
+      found.findings[0].effect() == "part.roundness" ? found.findings[0].probability : 0.0;
   for (const Rival& r : found.findings[0].rivals)
     if (r.effect == "part.roundness") part = r.probability;
   EXPECT_GE(part, 0.02);
@@ -63,15 +64,13 @@ TEST(AgreeingCauses, LobesThatShrinkMayBeThePart) {
 // No order of a crude part is given to the spindle for a growth that is small for its lobes.
 TEST(AgreeingCauses, AllOrdersOfACrudePartAreOfThePart) {
   const auto lobes = [](double order, double mm, double phase) {
-    return virtual_lathe::Effect{
-        "part.roundness", {{"order", order}, {"amplitude_mm", mm}, {"phase_rad", phase}}};
+    return virtual_lathe::Effect{"part.roundness",
+                                 {{"order", order}, {"amplitude_mm", mm}, {"phase_rad", phase}}};
   };
   const auto growth = [](double order, double mm, double phase) {
-    return virtual_lathe::Effect{"part.roundness",
-                                     {{"order", order},
-                                      {"amplitude_mm", 0.0},
-                                      {"growth_mm", mm},
-                                      {"phase_rad", phase}}};
+    return virtual_lathe::Effect{
+        "part.roundness",
+        {{"order", order}, {"amplitude_mm", 0.0}, {"growth_mm", mm}, {"phase_rad", phase}}};
   };
   const Diagnosis found =
       of_long_part({lobes(2, 0.05, 0.3), growth(2, 0.006, 1.9), lobes(3, 0.04, 1.0),

@@ -56,11 +56,10 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedCase{"G41 D1\nG42 D1\n", "2:1 3:1"}, RefusedCase{"G52 X1\n", "2:1"},
         RefusedCase{"G68 X0 Y0 R30\nG68.2 P1 X0\n", "2:1 3:1"},
         RefusedCase{"G92 X0\nG92.1\nG10 L2 P1 X0\n", "2:1 3:1 4:1"},
-        RefusedCase{"M98 P1000\nG65 P9000\n", "2:1 3:1"},
-        RefusedCase{"M128\nM129\n", "2:1 3:1"}, RefusedCase{"G33 Z1 K1\n", "2:1"},
-        RefusedCase{"G59.1\nG54.1 P3\n", "2:1 3:1"}, RefusedCase{"M47\nN5 M99 P2\n", "2:1 3:8"},
-        RefusedCase{"M99\n", ""}, RefusedCase{"M70\nG21\nM72\nM61 Q3\n", "2:1 4:1 5:1"},
-        RefusedCase{"G0 G1 X1\n", "2:4"}));
+        RefusedCase{"M98 P1000\nG65 P9000\n", "2:1 3:1"}, RefusedCase{"M128\nM129\n", "2:1 3:1"},
+        RefusedCase{"G33 Z1 K1\n", "2:1"}, RefusedCase{"G59.1\nG54.1 P3\n", "2:1 3:1"},
+        RefusedCase{"M47\nN5 M99 P2\n", "2:1 3:8"}, RefusedCase{"M99\n", ""},
+        RefusedCase{"M70\nG21\nM72\nM61 Q3\n", "2:1 4:1 5:1"}, RefusedCase{"G0 G1 X1\n", "2:4"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Words, NcRefused,

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "diagnose/regression/joint.hpp"
 #include "diagnose/explain/shared_scale.hpp"
+#include "diagnose/regression/joint.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/judge.hpp"
 #include "infer/classes.hpp"
@@ -105,8 +105,8 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
       const double worse = static_cast<double>(joint.equations.count() - beside.rank) *
                            std::log((beside.rss - all.gain) /
                                     std::max(beside.rss - score(beside, own).gain, 1e-300));
-      c.criterion = std::min(c.criterion, std::max(worse, 0.0) +
-                                              criterion_as(c.hypothesis, its, named, own, beside,
+      c.criterion = std::min(
+          c.criterion, std::max(worse, 0.0) + criterion_as(c.hypothesis, its, named, own, beside,
                                                            joint.equations.count()));
     }
     if (c.hypothesis.effect != named.effect) {
@@ -146,8 +146,7 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
       joint.sigma_mm * joint.sigma_mm,
       static_cast<double>(joint.equations.count() - joint.solution.rank));
   out.probability = found.probability;
-  out.spreads.push_back(spreads_of(out.members.front().hypothesis,
-                                   size_of(named_columns, beside)));
+  out.spreads.push_back(spreads_of(out.members.front().hypothesis, size_of(named_columns, beside)));
   for (const Class::Member& m : found.members) {
     out.members.push_back(causes[place[m.cause]]);
     const Hypothesis& member = out.members.back().hypothesis;

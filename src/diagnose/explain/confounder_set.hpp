@@ -14,7 +14,7 @@ struct ConfounderSet {
   std::vector<Rival> rivals;  ///< one per member but the first
   /// The size of each member, in spreads of its prior about the median; 0: it has none.
   std::vector<double> spreads;
-  double probability = 1.0;   ///< of the first
+  double probability = 1.0;  ///< of the first
   /// What is dropped: as too improbable, or told apart only as far as it is linear in its size.
   struct Dropped {
     Candidate cause;

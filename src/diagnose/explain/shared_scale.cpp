@@ -118,8 +118,9 @@ void share_scales(std::vector<AmbiguousFinding>& findings) {
     if (!(all > 0.0)) continue;
     for (const Choice& c : terms[t])
       for (const std::size_t m : c.members) {
-        const double now =
-            c.probability > 0.0 ? probability_of(*sets[t], m) / c.probability * c.weight / all : 0.0;
+        const double now = c.probability > 0.0
+                               ? probability_of(*sets[t], m) / c.probability * c.weight / all
+                               : 0.0;
         (m == 0 ? sets[t]->probability : sets[t]->rivals[m - 1].probability) = now;
       }
     sort_rivals(*sets[t]);
