@@ -24,7 +24,9 @@ constexpr double trace = 0.01;            // RMS over that of all orders: what t
 constexpr double least_excess = 4.0;      // σ of a mean power above that of noise
 constexpr double least_away = 3.0;        // nearer lines may be the order's own skirts
 constexpr double lines_of_motion = 8.0;   // on each side, that tell a motion close to an order
-constexpr double most_of_lines = 0.8;     // of their power: one motion that explains them
+constexpr double most_rest = 4.0;         // of the median power, in a line without that motion
+constexpr double least_share = 2e-3;      // of the lines' power: what the steps of x leave
+constexpr double nearly_zero = 1e-3;      // lines
 constexpr double step_of_motion = 0.02;   // lines
 constexpr double least_off = 0.05;        // lines: what is nearer is the order
 
@@ -64,6 +66,16 @@ double in_line(double x, double j) {
   return std::fmod(std::abs(j), 2.0) > 0.5 ? -size : size;
 }
 
+/// Several motions close to an order, or one whose frequency wanders: the order has taken about as
+/// much of them as the lines next to it have.
+NearMotion several_motions(const std::vector<NearLine*>& lines) {
+  const Index sensors = lines.front()->at.size();
+  NearMotion out{Eigen::VectorXcd::Zero(sensors), Eigen::MatrixXcd::Zero(sensors, sensors)};
+  for (const NearLine* line : lines)
+    if (std::abs(line->away) < least_away) out.covariance += line->at * line->at.adjoint();
+  return out;
+}
+
 /// The motion that explains the lines, if their power is far above the others', averaged over where
 /// it may lie (Eq. 143a). The lines keep what they have without it.
 NearMotion take_motion(std::vector<NearLine>& near) {
@@ -80,9 +92,7 @@ NearMotion take_motion(std::vector<NearLine>& near) {
     double x, explained, squares;
     Eigen::VectorXcd amplitude;
   };
-  std::vector<Place> places;
-  for (double x = -least_away + step_of_motion; x < least_away; x += step_of_motion) {
-    if (std::abs(x) < least_off) continue;
+  const auto at = [&](double x) {
     Place place{x, 0.0, 0.0, Eigen::VectorXcd::Zero(near.front().at.size())};
     for (const NearLine* line : lines) {
       const double pattern = in_line(x, line->away);
@@ -91,15 +101,22 @@ NearMotion take_motion(std::vector<NearLine>& near) {
     }
     place.amplitude /= place.squares;
     place.explained = place.squares * place.amplitude.squaredNorm();
-    places.push_back(std::move(place));
-  }
+    return place;
+  };
+  std::vector<Place> places;
+  for (double x = -least_away + step_of_motion; x < least_away; x += step_of_motion)
+    if (std::abs(x) >= least_off) places.push_back(at(x));
   const Place* best = &*std::ranges::max_element(places, {}, &Place::explained);
   const double usual = median(powers);
-  if (!(best->explained > std::max(standing_out * usual, most_of_lines * all))) return {};
+  const double rest =
+      (all - best->explained) / std::max(static_cast<double>(lines.size()) - 1.5, 1.0);
+  if (!(best->explained > standing_out * usual)) return {};
+  // The order itself, which grows or shrinks evenly: the limit of x = 0.
+  if (best->explained < at(nearly_zero).explained + most_rest * std::max(usual, rest)) return {};
+  if (rest > most_rest * usual && all - best->explained > least_share * all)
+    return several_motions(lines);
   const auto sensors = static_cast<double>(near.front().at.size());
-  const double noise = std::max(usual, (all - best->explained) /
-                                           std::max(static_cast<double>(lines.size()) - 1.5, 1.0)) /
-                       sensors;
+  const double noise = std::max(usual, rest) / sensors;
   NearMotion out{Eigen::VectorXcd::Zero(best->amplitude.size()),
                  Eigen::MatrixXcd::Zero(best->amplitude.size(), best->amplitude.size())};
   double sum = 0.0;
