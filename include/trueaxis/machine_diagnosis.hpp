@@ -99,6 +99,7 @@ struct MachineFinding : NamedFinding {
 struct MachineUnexplained : UnnamedPattern {
   std::string pattern;           ///< in words
   bool may_have_a_name = false;  ///< it has the form of an effect, together with something unknown
+  double left = 0.0;  ///< of the amplitude, in the readings less `MachineDiagnosis::errors`
   std::vector<CalibratedParameter> parameters{};
   Covariance covariance{};  ///< of `parameters`
   MachineTerm term{};       ///< of which error it is; monostate: of the tip or of one reading

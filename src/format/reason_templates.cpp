@@ -340,8 +340,9 @@ std::string_view template_of(ReasonCode code) {
       {remark, "{text}"},
       {check_found, "{check}: {text}"},
       {pattern_counted,
-       "{pattern} of <{amplitude:um:.3g} µm><{angle:deg:.3g}°> has no known cause; it is included "
-       "in what the tip is off by at most"},
+       "{pattern} of <{amplitude:um:.3g} µm><{angle:deg:.3g}°> has no known cause; what the tip is "
+       "off by at most includes <{amplitude_left:um:.3g} µm><{angle_left:deg:.3g}°> of it, which "
+       "the calibration does not explain either"},
       {tool_length_not_measured,
        "line {line::.0f} cuts with a tool of {length::.6g} mm, {beyond::.3g} mm from the measured "
        "lengths: a tilt of the spindle of 0.2 mrad, which they do not show, would move its tip by "

@@ -236,53 +236,92 @@ std::vector<MachineFinding> findings_of(const Found& search) {
   return all;
 }
 
-void state_findings(const TipFit& fit, const Found& search, const std::vector<MachineFinding>& all,
-                    MachineDiagnosis& out) {
-  const double to_rms = fit.problem.rms_mm(fit.problem.weights.cwiseInverse()) /
-                        std::sqrt(static_cast<double>(fit.problem.equations));
-  const std::vector<bool> unknown = parts_of_unknown(search, all, fit.problem.read_outs());
-  for (std::size_t at = 0; at < search.found.size(); ++at) {
-    MachineFinding found = all[at];
-    found.rms_mm *= to_rms;
-    if (fit.problem.read_outs() || is_sure(search.terms[search.found[at]]))
-      out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
-    weigh_aliases(fit.problem, search.terms[search.found[at]], found);
-    found.pairs = pairs_like(*search.dictionary, search.terms, search.found, at, found);
-    if (!unknown[at]) {
-      out.findings.push_back(std::move(found));
-      continue;
-    }
-    const Term& term = search.terms[search.found[at]];
-    double square = 0.0;
-    for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
-    const bool named = !term.is_pattern();
-    out.unexplained.push_back(
-        {{{found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
-           found.cause.unit, ""},
-          found.p_value},
-         found.effect() + (named                 ? ", which may be part of something unknown"
-                           : term.of_one_reading ? " (measure it again, or leave the row out)"
-                                                 : ""),
-         named,
-         found.parameters,
-         found.covariance,
-         term.error ? ErrorOfPosition{*term.error, {}, {}} : found.cause.term});
-  }
-  std::ranges::stable_sort(out.findings, {}, &MachineFinding::p_value);
-  std::ranges::stable_sort(out.unexplained, {}, &MachineUnexplained::p_value);
+/// Amplitude of a term in these residuals over σ, mm or rad: all other numbers stay as they are. No
+/// more than their noise makes is 0, because U counts it.
+double amplitude_in(const VectorXd& residuals, double variance, const Problem& problem,
+                    const Term& term) {
+  constexpr double beyond_noise = 3.0;  // standard deviations of χ²
+  const MatrixXd columns = linear::scaled_rows(problem.weights, term.columns);
+  const auto fit = linear::shortest_solution(columns, residuals);
+  const auto freedom = static_cast<double>(fit.rank);
+  const double squares = (columns * fit.x).squaredNorm();
+  return squares > variance * (freedom + beyond_noise * std::sqrt(2.0 * freedom)) ? fit.x.norm()
+                                                                                  : 0.0;
 }
 
-/// Scatter that the stated noise does not explain: χ² of all that is left.
-void judge_scatter(const TipFit& fit, const Found& search, const MachineDiagnoseOptions& options,
-                   MachineDiagnosis& out) {
-  if (!fit.problem.noise_stated) return;
+/// χ² of all that is left: p if the stated noise does not explain the scatter.
+std::optional<double> scatter(const TipFit& fit, const Found& search, double false_alarm) {
+  if (!fit.problem.noise_stated) return {};
   const infer::Solution all = search.dictionary->fitted(search.found);
   const auto freedom = static_cast<double>(search.dictionary->rows() - all.rank);
   const double p = infer::Family{1.0 / infer::share_of_scatter}.p_value(
       cdf(complement(boost::math::chi_squared(freedom), all.rss)));
-  if (p >= options.false_alarm) return;
-  out.unexplained.push_back({{{out.noise_mm, out.noise_mm / std::sqrt(2.0 * freedom), "mm", ""}, p},
-                             "scatter above the stated noise"});
+  if (p >= false_alarm) return {};
+  return p;
+}
+
+/// What no effect explains, with the amplitude that a calibration of the readings leaves.
+class Unexplained {
+ public:
+  Unexplained(const TipFit& fit, const Calibration& counted)
+      : problem_(fit.problem),
+        residuals_(fit.problem.weights.cwiseProduct(
+            fit.problem.residuals(counted.errors, best_places(fit.problem, counted.errors)))),
+        variance_(
+            std::pow(counted.noise_mm / fit.problem.rms_mm(fit.problem.weights.cwiseInverse()), 2)),
+        noise_as_stated_(counted.noise_basis == NoiseBasis::stated) {}
+
+  MachineUnexplained pattern(const Term& term, const MachineFinding& found) const {
+    double square = 0.0;
+    for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
+    const bool named = !term.is_pattern();
+    return {{{found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
+              found.cause.unit, ""},
+             found.p_value},
+            found.effect() + (named                 ? ", which may be part of something unknown"
+                              : term.of_one_reading ? " (measure it again, or leave the row out)"
+                                                    : ""),
+            named,
+            std::min(found.size, amplitude_in(residuals_, variance_, problem_, term)),
+            found.parameters,
+            found.covariance,
+            term.error ? ErrorOfPosition{*term.error, {}, {}} : found.cause.term};
+  }
+
+  MachineUnexplained scatter(double noise_mm, double freedom, double p) const {
+    return {{{noise_mm, noise_mm / std::sqrt(2.0 * freedom), "mm", ""}, p},
+            "scatter above the stated noise",
+            false,
+            noise_as_stated_ ? 0.0 : noise_mm};
+  }
+
+ private:
+  const Problem& problem_;
+  VectorXd residuals_;
+  double variance_;  ///< of one of them
+  bool noise_as_stated_;
+};
+
+void state_findings(const TipFit& fit, const Found& search, const std::vector<MachineFinding>& all,
+                    const std::vector<bool>& unknown, const std::optional<Unexplained>& unexplained,
+                    MachineDiagnosis& out) {
+  const double to_rms = fit.problem.rms_mm(fit.problem.weights.cwiseInverse()) /
+                        std::sqrt(static_cast<double>(fit.problem.equations));
+  for (std::size_t at = 0; at < search.found.size(); ++at) {
+    const Term& term = search.terms[search.found[at]];
+    MachineFinding found = all[at];
+    found.rms_mm *= to_rms;
+    if (fit.problem.read_outs() || is_sure(term))
+      out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
+    weigh_aliases(fit.problem, term, found);
+    found.pairs = pairs_like(*search.dictionary, search.terms, search.found, at, found);
+    if (unknown[at])
+      out.unexplained.push_back(unexplained->pattern(term, found));
+    else
+      out.findings.push_back(std::move(found));
+  }
+  std::ranges::stable_sort(out.findings, {}, &MachineFinding::p_value);
+  std::ranges::stable_sort(out.unexplained, {}, &MachineUnexplained::p_value);
 }
 
 }  // namespace
@@ -348,11 +387,21 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   out.threshold = found.options.effects().single_level(options.false_alarm);
   const std::vector<MachineFinding> findings = findings_of(found);
   fit_jointly(*fit, geometry, found, findings, out);
-  state_findings(*fit, found, findings, out);
-  judge_scatter(*fit, found, options, out);
+  const std::vector<bool> unknown = parts_of_unknown(found, findings, fit->problem.read_outs());
+  const std::optional<double> scatter_p = scatter(*fit, found, options.false_alarm);
+  std::optional<Calibration> counted;
+  std::optional<Unexplained> unexplained;
+  if (scatter_p || std::ranges::find(unknown, true) != unknown.end())
+    unexplained.emplace(*fit, counted.emplace(calibrate(machine, data, options.calibration)));
+  state_findings(*fit, found, findings, unknown, unexplained, out);
+  if (scatter_p) {
+    const auto rank = found.dictionary->fitted(found.found).rank;
+    out.unexplained.push_back(unexplained->scatter(
+        out.noise_mm, static_cast<double>(found.dictionary->rows() - rank), *scatter_p));
+  }
   // With something unknown, names and sizes of the rest are not sure. A calibration of the
   // readings, which counts what it does not fit, predicts the tip elsewhere better.
-  if (!out.unexplained.empty()) out.errors = calibrate(machine, data, options.calibration).errors;
+  if (counted) out.errors = std::move(counted->errors);
   out.effective_hypotheses = found.dictionary->independent_tests();
   out.typical_length_mm = options.typical_length_mm;
   out.typical_angle_rad = options.typical_angle_rad;

@@ -70,6 +70,7 @@ Json consequences_json(const MachineDiagnosis& d) {
 Json unexplained_json(const MachineUnexplained& one) {
   return {{"pattern", one.pattern},
           {"amplitude", to_json(one.amplitude)},
+          {"left", number(at_edge({one.left, 0.0, one.amplitude.unit, ""}).value)},
           {"p_value", number(one.p_value)},
           {"term", linear_json(one.parameters, one.covariance)}};
 }

@@ -176,12 +176,15 @@ Reasons machine_reservations(const MachineJobResult& result) {
     if (check.found)
       all.push_back(
           {ReasonCode::check_found, {}, {}, {{"check", check.effect}, {"text", check.text}}});
-  for (const MachineUnexplained& one : result.diagnosis.unexplained)
+  for (const MachineUnexplained& one : result.diagnosis.unexplained) {
+    const bool angle = one.amplitude.unit == "rad";
+    const char* unit = angle ? "rad" : "mm";
     all.push_back({ReasonCode::pattern_counted,
                    {},
-                   {{one.amplitude.unit == "rad" ? "angle" : "amplitude", one.amplitude.value,
-                     one.amplitude.unit == "rad" ? "rad" : "mm"}},
+                   {{angle ? "angle" : "amplitude", one.amplitude.value, unit},
+                    {angle ? "angle_left" : "amplitude_left", one.left, unit}},
                    {{"pattern", one.pattern}}});
+  }
   for (const AxisRange& range : result.ranges)
     if (beyond_measured(range)) all.push_back(beyond(range, ReasonCode::axis_not_measured_there));
   if (!result.compensation) return all;
@@ -193,15 +196,18 @@ Reasons machine_reservations(const MachineJobResult& result) {
 double not_corrected_mm(const MachineJobResult& result, const MachineModel& model,
                         const std::vector<Stand>& stands) {
   double sum = 0.0;
+  const bool of_calibration = !result.diagnosis.unexplained.empty();
   for (const MachineFinding& found : result.diagnosis.findings) {
-    // An order corrected in the place of another leaves both.
-    const double times = !is_machine_error(found.cause.term) ? 1.0 : found.likely_order ? 0.0 : 2.0;
+    // An order corrected in the place of another leaves both. The errors of a calibration, which
+    // are used if something is unexplained, have no order in the place of another.
+    const double times = !is_machine_error(found.cause.term)    ? 1.0
+                         : found.likely_order || of_calibration ? 0.0
+                                                                : 2.0;
     if (times > 0.0)
       sum += times * at_tip_mm(found.cause.term, found.size, model, stands).value_or(0.0);
   }
   for (const MachineUnexplained& one : result.diagnosis.unexplained)
-    sum += at_tip_mm(one.term, one.amplitude.value, model, stands)
-               .value_or(std::abs(one.amplitude.value));
+    sum += at_tip_mm(one.term, one.left, model, stands).value_or(one.left);
   return sum;
 }
 
