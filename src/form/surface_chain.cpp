@@ -33,13 +33,20 @@ constexpr int most_sizes = 30;
 constexpr int seldom_at_first = 4, seldom = 8;
 constexpr std::size_t most_to_begin = 8;
 constexpr double least_to_begin = 8.0;  // of the logarithm of the evidence
+constexpr std::size_t most_local = 6;
+constexpr int turns_of_places = 2;
 
 class Chain {
  public:
-  Chain(const SurfaceTerms& terms, SurfaceSums sums, const ChainOptions& options)
-      : engine_(options.seed),
+  Chain(const SurfaceTerms& terms, const SurfaceData& data, const ChainOptions& options)
+      : terms_(terms),
+        data_(data),
+        search_(terms, data),
+        engine_(options.seed),
         least_variance_(options.least_noise_mm * options.least_noise_mm),
-        count_(static_cast<double>(sums.count)) {
+        count_(static_cast<double>(data.t.size())) {
+    const std::vector<double> height_mm(data.height_mm.begin(), data.height_mm.end());
+    SurfaceSums sums = surface_sums(terms, data.angle_rad, data.t, {&height_mm, 1});
     take_out_base(terms, sums);
     for (int n = 0; n <= terms.orders; ++n) {
       const int first = n < 2 ? 2 : 0, last = terms.degrees_of(n);
@@ -66,25 +73,17 @@ class Chain {
 
   void renew_all(int sweep, int every) {
     for (std::size_t at = 0; at < orders_.size(); ++at)
-      if (found_[at] || (sweep + orders_[at].order()) % every == 0) renew(at);
+      if (found_[at] || (sweep + static_cast<int>(at)) % every == 0) renew(at);
     renew_shares();
     renew_noise();
   }
 
   /// All coefficients, with a draw of radius, cone and axis.
   VectorXd draw() {
-    VectorXd out = value_;
-    VectorXd base = base_right_;
-    for (std::size_t at = 0; at < orders_.size(); ++at)
-      if (state_[at] != absent)
-        base -= base_rows_.middleCols(orders_[at].column(), orders_[at].size()) *
-                value_.segment(orders_[at].column(), orders_[at].size());
-    const VectorXd z = normal_numbers(base.size());
-    base = base_inverse_ * base + std::sqrt(variance_) * (base_root_ * z);
-    for (std::size_t i = 0; i < base_columns_.size(); ++i)
-      out[base_columns_[i]] = base[static_cast<Index>(i)];
-    return out;
+    const VectorXd z = normal_numbers(base_right_.size());
+    return with_base(std::sqrt(variance_) * (base_root_ * z));
   }
+  const std::vector<LocalForm>& local() const { return local_; }
   double noise_mm() const { return std::sqrt(variance_); }
   bool has(int order) const {
     for (std::size_t at = 0; at < orders_.size(); ++at)
@@ -143,11 +142,103 @@ class Chain {
     return out;
   }
 
-  /// The chain begins with the orders that explain most, one after the other: of two that look
-  /// alike at these angles the first to come would otherwise stay.
+  /// @param off of radius, cone and axis from what fits best with all else
+  VectorXd with_base(const VectorXd& off) const {
+    VectorXd out = value_;
+    VectorXd base = base_right_;
+    for (std::size_t at = 0; at < orders_.size(); ++at)
+      if (state_[at] != absent)
+        base -= base_rows_.middleCols(orders_[at].column(), orders_[at].size()) *
+                value_.segment(orders_[at].column(), orders_[at].size());
+    base = base_inverse_ * base + off;
+    for (std::size_t i = 0; i < base_columns_.size(); ++i)
+      out[base_columns_[i]] = base[static_cast<Index>(i)];
+    return out;
+  }
+
+  /// The columns of a local form in the place of another or after all: less what radius, cone and
+  /// axis leave of them.
+  void put_local(std::size_t place, const LocalForm& form) {
+    constexpr Index own = LocalForm::columns;
+    const Index begin = terms_.size() + own * static_cast<Index>(place);
+    if (place == local_.size()) {
+      local_.push_back(form);
+      normal_.conservativeResize(begin + own, begin + own);
+      base_rows_.conservativeResize(Eigen::NoChange, begin + own);
+      right_.conservativeResize(begin + own);
+      value_.conservativeResize(begin + own);
+      state_.push_back(absent);
+      found_.push_back(true);
+    }
+    local_[place] = form;
+    const Index all = value_.size();
+    std::vector<std::vector<double>> columns(own);
+    MatrixXd raw = MatrixXd::Zero(all, own);
+    VectorXd right = VectorXd::Zero(own);
+    for (std::size_t i = 0; i < data_.t.size(); ++i) {
+      const double angle = data_.angle_rad[i], t = data_.t[i];
+      const LocalForm::Row row = form.at(angle, t);
+      for (Index k = 0; k < own; ++k) columns[static_cast<std::size_t>(k)].push_back(row[k]);
+      right += data_.height_mm[i] * row.transpose();
+      Index from = terms_.size();
+      for (const LocalForm& one : local_) {
+        raw.middleRows(from, own) += one.at(angle, t).transpose() * row;
+        from += own;
+      }
+    }
+    raw.topRows(terms_.size()) = surface_sums(terms_, data_.angle_rad, data_.t, columns).right;
+    MatrixXd of_base(static_cast<Index>(base_columns_.size()), own);
+    for (std::size_t i = 0; i < base_columns_.size(); ++i)
+      of_base.row(static_cast<Index>(i)) = raw.row(base_columns_[i]);
+    base_rows_.middleCols(begin, own) = of_base;
+    const MatrixXd by_base = base_inverse_ * of_base;
+    raw -= base_rows_.transpose() * by_base;
+    normal_.middleCols(begin, own) = raw;
+    normal_.middleRows(begin, own) = raw.transpose();
+    right_.segment(begin, own) = right - by_base.transpose() * base_right_;
+    const SurfaceOrder block(begin, raw.middleRows(begin, own), search_.log_tests());
+    const std::size_t at =
+        orders_.size() - local_.size() + place + (orders_.size() < state_.size());
+    if (at == orders_.size())
+      orders_.push_back(block);
+    else
+      orders_[at] = block;
+  }
+
+  void clear() {
+    std::ranges::fill(state_, absent);
+    value_.setZero();
+    variance_ = std::max({squares_ / count_, least_variance_, rounding_});
+    make_gain();
+  }
+
+  /// The chain begins with what explains most, one after the other: of two orders that look alike
+  /// at these angles the first to come would otherwise stay. A local form that explains more than
+  /// any order is a term. Its place depends on the orders, and they on it: both are found in turn.
   void begin_by_largest() {
+    while (const auto found = begin_with_orders(local_.size() < most_local)) {
+      put_local(local_.size(), *found);
+      for (int turn = 0; turn < turns_of_places; ++turn) {
+        clear();
+        begin_with_orders(false);
+        const VectorXd all = with_base(VectorXd::Zero(base_right_.size()));
+        for (std::size_t k = 0; k < local_.size(); ++k) {
+          VectorXd others = all;
+          others
+              .segment<LocalForm::columns>(terms_.size() +
+                                           LocalForm::columns * static_cast<Index>(k))
+              .setZero();
+          put_local(k, search_.refined(local_, others, k));
+        }
+      }
+      clear();
+    }
+  }
+
+  /// @return a local form that explains more than any order, if it is looked for
+  std::optional<LocalForm> begin_with_orders(bool look) {
     for (std::size_t round = 0; round < most_to_begin; ++round) {
-      double largest = 0.0;
+      double largest = least_to_begin;
       std::size_t which = orders_.size();
       for (std::size_t at = 0; at < orders_.size(); ++at) {
         if (state_[at] != absent) continue;
@@ -156,10 +247,16 @@ class Chain {
         largest = evidence_.maxCoeff();
         which = at;
       }
-      if (largest < least_to_begin) return;
+      if (look) {
+        const auto found =
+            search_.best(local_, with_base(VectorXd::Zero(base_right_.size())), variance_);
+        if (found && found->log_evidence > largest) return found->form;
+      }
+      if (which == orders_.size()) return {};
       renew(which);
       renew_noise();
     }
+    return {};
   }
 
   /// Aᵀy of an order's columns without all others.
@@ -236,6 +333,9 @@ class Chain {
     make_gain();
   }
 
+  const SurfaceTerms& terms_;
+  SurfaceData data_;
+  LocalFormSearch search_;
   boost::random::mt19937_64 engine_;
   boost::random::normal_distribution<double> gauss_;
   boost::random::uniform_01<double> uniform_;
@@ -243,7 +343,8 @@ class Chain {
   std::vector<Index> base_columns_;
   MatrixXd base_rows_, base_inverse_, base_root_, normal_, evidence_;
   VectorXd base_right_, right_, value_;
-  std::vector<SurfaceOrder> orders_;
+  std::vector<SurfaceOrder> orders_;  ///< and after them the local forms
+  std::vector<LocalForm> local_;
   std::vector<State> state_;
   std::vector<bool> found_;
   std::vector<double> sizes_, gain_;  ///< τ², and τ²/σ² padded
@@ -252,11 +353,13 @@ class Chain {
 
 }  // namespace
 
-SurfacePosterior sample_surface(const SurfaceTerms& terms, SurfaceSums sums,
+SurfacePosterior sample_surface(const SurfaceTerms& terms, const SurfaceData& data,
                                 const ChainOptions& options) {
-  Chain chain(terms, std::move(sums), options);
+  Chain chain(terms, data, options);
   SurfacePosterior out;
-  out.coefficients.resize(terms.size(), options.draws);
+  out.local = chain.local();
+  out.coefficients.resize(terms.size() + LocalForm::columns * static_cast<Index>(out.local.size()),
+                          options.draws);
   out.order_is_there = VectorXd::Zero(terms.orders + 1);
   for (int draw = 0; draw < options.draws; ++draw) {
     stop_if_asked();

@@ -29,6 +29,7 @@ constexpr double degrees_a_turn = 1.25, stations_a_degree = 1.5;
 constexpr int between_stations = 16;  // places that are looked at
 constexpr double seen = 0.05, certain = 0.999;
 constexpr std::size_t angles_a_wave = 32, angles_of_doubtful = 3;  // an order more likely absent
+constexpr double angles_a_width = 8.0;  // of a local form: its top is read 0.2 % low
 constexpr std::size_t fewest_angles = 96, most_angles = 720;
 constexpr double turns_about_a_station = 3.0;
 constexpr double widest_of_steps = 2.5;  // of a turn's: a step that is not a gap
@@ -89,7 +90,7 @@ void SurfaceModel::put_about_axis(const SurfaceReadings& readings) {
 }
 
 void SurfaceModel::sample() {
-  posterior_ = sample_surface(terms_, surface_sums(terms_, angle_rad_, t_, {&off_mm_, 1}),
+  posterior_ = sample_surface(terms_, {angle_rad_, t_, off_mm_, turns_},
                               {.draws = std::max(options_.trials, least_draws),
                                .seed = options_.seed,
                                .least_noise_mm = options_.noise_mm.value_or(0.0)});
@@ -98,17 +99,8 @@ void SurfaceModel::sample() {
 
 std::vector<double> SurfaceModel::left_mm() const {
   std::vector<double> left;
-  for (std::size_t i = 0; i < t_.size(); ++i) {
-    const VectorXd f = along(terms_.degrees, t_[i]);
-    double h = 0.0;
-    for (int n = 0; n <= terms_.orders; ++n) {
-      const Eigen::Vector2d amplitude = amplitudes(f, n, mean_);
-      if (!amplitude.isZero(0.0))
-        h +=
-            amplitude[0] * std::cos(n * angle_rad_[i]) + amplitude[1] * std::sin(n * angle_rad_[i]);
-    }
-    left.push_back(off_mm_[i] - h);
-  }
+  for (std::size_t i = 0; i < t_.size(); ++i)
+    left.push_back(off_mm_[i] - height_of(terms_, posterior_.local, mean_, angle_rad_[i], t_[i]));
   return left;
 }
 
@@ -139,6 +131,20 @@ void SurfaceModel::keep_coefficients() {
                 .sqrt();
   noise_mm_ = std::accumulate(posterior_.noise_mm.begin(), posterior_.noise_mm.end(), 0.0) /
               static_cast<double>(draws());
+  const auto count = LocalForm::columns * static_cast<Index>(posterior_.local.size());
+  local_.assign(static_cast<std::size_t>(terms_.orders) + 1, Eigen::MatrixXd(2, count));
+  for (int n = 0; n <= terms_.orders; ++n)
+    for (std::size_t k = 0; k < posterior_.local.size(); ++k)
+      local_[static_cast<std::size_t>(n)].middleCols<LocalForm::columns>(
+          LocalForm::columns * static_cast<Index>(k)) = posterior_.local[k].around(n);
+}
+
+SurfaceModel::Place SurfaceModel::place_of(double t) const {
+  Place out{along(terms_.degrees, t), Eigen::RowVectorXd(local_.front().cols())};
+  for (std::size_t k = 0; k < posterior_.local.size(); ++k)
+    out.local.segment<LocalForm::columns>(LocalForm::columns * static_cast<Index>(k)) =
+        posterior_.local[k].along(t);
+  return out;
 }
 
 void SurfaceModel::make_grid() {
@@ -148,6 +154,8 @@ void SurfaceModel::make_grid() {
     const std::size_t a_wave = share > 0.5 ? angles_a_wave : share > seen ? angles_of_doubtful : 0;
     count = std::max(count, a_wave * static_cast<std::size_t>(n));
   }
+  for (const LocalForm& one : posterior_.local)
+    count = std::max(count, static_cast<std::size_t>(angles_a_width * two_pi / one.width_rad));
   count = std::min(count, most_angles);
   for (std::size_t k = 0; k < count; ++k) {
     const double angle = two_pi * static_cast<double>(k) / static_cast<double>(count);
@@ -174,16 +182,17 @@ std::vector<double> SurfaceModel::station_places() const {
   for (int s = 0; s <= steps; ++s) {
     const double t = 2.0 * s / steps - 1.0;
     if (s % between_stations == 0) out.push_back(t);
-    const VectorXd f = along(terms_.degrees, t);
-    const double radius = amplitudes(f, 0, mean_)[0];
+    const Place at = place_of(t);
+    const double radius = amplitudes(at, 0, mean_)[0];
     double lobes = 0.0;
     for (int n = 2; n <= terms_.orders; ++n)
-      lobes += (band_[static_cast<std::size_t>(n)] * amplitudes(f, n, mean_)).squaredNorm();
-    const std::array<double, 4> sizes{lobes, radius, -radius, amplitudes(f, 1, mean_).norm()};
+      lobes += (band_[static_cast<std::size_t>(n)] * amplitudes(at, n, mean_)).squaredNorm();
+    const std::array<double, 4> sizes{lobes, radius, -radius, amplitudes(at, 1, mean_).norm()};
     for (std::size_t k = 0; k < sizes.size(); ++k)
       if (s == 0 || sizes[k] > largest[k]) largest[k] = sizes[k], there[k] = t;
   }
   out.insert(out.end(), there.begin(), there.end());
+  for (const LocalForm& one : posterior_.local) out.push_back(one.t);
   std::ranges::sort(out);
   out.erase(std::ranges::unique(out).begin(), out.end());
   return out;
@@ -193,7 +202,7 @@ std::vector<double> SurfaceModel::station_places() const {
 void SurfaceModel::add_station(double z_mm, std::span<const std::size_t> by_z) {
   Station station;
   station.z_mm = z_mm;
-  station.along = along(terms_.degrees, (z_mm - middle_mm_) / half_mm_);
+  station.at = place_of((z_mm - middle_mm_) / half_mm_);
   const auto most = static_cast<std::size_t>(std::ceil(turns_about_a_station * per_turn_));
   const std::size_t count = std::min(std::max<std::size_t>(most, 8), by_z.size());
   const auto behind =
@@ -221,13 +230,16 @@ void SurfaceModel::add_station(double z_mm, std::span<const std::size_t> by_z) {
   if (station.place.size() >= least_angles) stations_.push_back(std::move(station));
 }
 
-Eigen::Vector2d SurfaceModel::amplitudes(const VectorXd& f, int order,
+Eigen::Vector2d SurfaceModel::amplitudes(const Place& at, int order,
                                          const Eigen::Ref<const VectorXd>& q) const {
   Eigen::Vector2d out = Eigen::Vector2d::Zero();
+  if (const Index count = at.local.size(); count > 0)
+    out =
+        local_[static_cast<std::size_t>(order)] * q.tail(count).cwiseProduct(at.local.transpose());
   const Index column = terms_.column(order, 0);
   for (int d = 0; d <= terms_.degrees_of(order); ++d)
     for (int w = 0; w < SurfaceTerms::width(order); ++w)
-      out[w] += f[d] * q[column + d * SurfaceTerms::width(order) + w];
+      out[w] += at.along[d] * q[column + d * SurfaceTerms::width(order) + w];
   return out;
 }
 
@@ -237,8 +249,8 @@ std::vector<double> SurfaceModel::profile(const Station& station,
                                           bool filtered) const {
   std::vector<double> out(station.place.size(), 0.0);
   for (int n = 0; n <= terms_.orders; ++n) {
-    Eigen::Vector2d amplitude = amplitudes(station.along, n, q);
-    if (n < 2) amplitude -= amplitudes(station.along, n, mean_);
+    Eigen::Vector2d amplitude = amplitudes(station.at, n, q);
+    if (n < 2) amplitude -= amplitudes(station.at, n, mean_);
     if (filtered) amplitude *= band_[static_cast<std::size_t>(n)];
     if (amplitude.isZero(0.0)) continue;
     // n times the angle is a place of the grid: n modulo its size further from angle to angle.
@@ -258,12 +270,12 @@ std::vector<double> SurfaceModel::profile(const Station& station,
 std::vector<Order> SurfaceModel::orders_at(const Station& station) const {
   std::vector<Order> out;
   for (int n = 0; n <= terms_.orders; ++n) {
-    const Eigen::Vector2d mean = amplitudes(station.along, n, mean_);
+    const Eigen::Vector2d mean = amplitudes(station.at, n, mean_);
     double squares = 0.0;
-    const bool absent = n >= 2 && posterior_.order_is_there[n] == 0.0;
+    const bool absent = n >= 2 && posterior_.order_is_there[n] == 0.0 && posterior_.local.empty();
     for (Index draw = 0; !absent && draw < posterior_.coefficients.cols(); ++draw)
       squares +=
-          (amplitudes(station.along, n, posterior_.coefficients.col(draw)) - mean).squaredNorm();
+          (amplitudes(station.at, n, posterior_.coefficients.col(draw)) - mean).squaredNorm();
     const double u = std::sqrt(squares / static_cast<double>(draws()) / SurfaceTerms::width(n));
     // For an order that no draw has, that of least squares.
     const double flat = std::sqrt(SurfaceTerms::width(n) / static_cast<double>(off_mm_.size()));
@@ -279,11 +291,11 @@ std::vector<SectionModel> SurfaceModel::sections() const {
   for (const Station& station : stations_) {
     StationOfSurface one;
     const auto [x0, y0] = axis_.at(station.z_mm);
-    const Eigen::Vector2d centre = amplitudes(station.along, 1, mean_);
+    const Eigen::Vector2d centre = amplitudes(station.at, 1, mean_);
     one.z_mm = station.z_mm;
     one.x_mm = x0 + centre[0];
     one.y_mm = y0 + centre[1];
-    one.mean_mm = radius_mm_ + amplitudes(station.along, 0, mean_)[0];
+    one.mean_mm = radius_mm_ + amplitudes(station.at, 0, mean_)[0];
     one.raw.period = two_pi;
     for (const std::size_t k : station.place)
       one.raw.at.push_back(two_pi * static_cast<double>(k) / static_cast<double>(cosine_.size()));
@@ -313,6 +325,10 @@ std::vector<std::vector<double>> SurfaceModel::profiles(std::size_t draw) const 
     for (std::size_t i = 0; i < at.size(); ++i) {
       const std::size_t k = station.place[i];
       at[i] += share * station.unfollowed_mm.dot(Eigen::Vector3d(1.0, cosine_[k], sine_[k]));
+      for (const Top& top : unfollowed_tops_)
+        at[i] += share * top.height_mm *
+                 top.form.at(std::atan2(sine_[k], cosine_[k]),
+                             (station.z_mm - middle_mm_) / half_mm_)[0];
     }
   }
   return out;
@@ -341,7 +357,7 @@ void SurfaceModel::add_taken_off(std::span<const std::vector<double>> columns_mm
     some.row(i) = sums.right.row(a);
   }
   const Eigen::MatrixXd solved = linear::solve_normal(normal, some);
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(terms_.size(), count);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(mean_.size(), count);
   for (Index i = 0; i < m; ++i) columns.row(there[static_cast<std::size_t>(i)]) = solved.row(i);
   const Eigen::Map<const Eigen::MatrixXd> given(correlation.data(), count, count);
   const linear::Spectrum spectrum = linear::spectrum(given);

@@ -9,6 +9,7 @@
 #include "form/axis_line.hpp"
 #include "form/section_model.hpp"
 #include "form/sections.hpp"
+#include "form/surface_local.hpp"
 #include "form/surface_sums.hpp"
 
 namespace trueaxis::form {
@@ -24,12 +25,14 @@ struct SurfacePosterior {
   Eigen::MatrixXd coefficients;    ///< a column a draw
   std::vector<double> noise_mm;    ///< of a reading, of each draw
   Eigen::VectorXd order_is_there;  ///< of each order, the share of draws that have any of it
+  std::vector<LocalForm> local;    ///< whose coefficients are the last
 };
 
 /// A Markov chain of the surface's coefficients, of which terms are there at all, how large those
 /// are, and of the noise (Eqs. 319, 320). Radius, cone and axis (orders 0 and 1 of degrees 0 and 1)
-/// have no prior. Deterministic.
-SurfacePosterior sample_surface(const SurfaceTerms& terms, SurfaceSums sums,
+/// have no prior. Local forms that explain more than any order are terms too (Eq. 320a).
+/// Deterministic.
+SurfacePosterior sample_surface(const SurfaceTerms& terms, const SurfaceData& data,
                                 const ChainOptions& options);
 
 /// A surface of revolution with its form, by all readings together: what they show of it as draws
@@ -56,9 +59,14 @@ class SurfaceModel {
   FormSurface form() const;
 
  private:
+  /// f_d(t), and what the columns of the local forms are times of there.
+  struct Place {
+    Eigen::VectorXd along;
+    Eigen::RowVectorXd local;
+  };
   struct Station {
     double z_mm = 0.0, gaps_rad = 0.0;
-    Eigen::VectorXd along;           ///< f_d(t)
+    Place at;
     std::vector<std::size_t> place;  ///< of its angles in the grid
     std::vector<Order> orders;       ///< before the filter
     std::size_t readings = 0;        ///< that are nearer to it than to any other
@@ -74,9 +82,11 @@ class SurfaceModel {
   bool leave_out_far();
   std::vector<double> left_mm() const;  ///< readings less the surface of the mean
   void find_unfollowed();
+  void find_unfollowed_tops(const std::vector<double>& left_mm);
   std::vector<double> kept_of(std::span<const double> column) const;
-  /// Amplitudes of cos and sin of an order where the degrees are f.
-  Eigen::Vector2d amplitudes(const Eigen::VectorXd& f, int order,
+  Place place_of(double t) const;
+  /// Amplitudes of cos and sin of an order there.
+  Eigen::Vector2d amplitudes(const Place& at, int order,
                              const Eigen::Ref<const Eigen::VectorXd>& q) const;
   std::vector<Order> orders_at(const Station& station) const;
   /// @param filtered through the band, else as it is
@@ -91,11 +101,18 @@ class SurfaceModel {
   std::vector<double> angle_rad_, t_, z_mm_, off_mm_;  ///< of the readings, about the axis
   std::vector<std::size_t> kept_;                      ///< of them by a robust filter; empty: all
   SurfacePosterior posterior_;
-  Eigen::VectorXd mean_, spread_;  ///< of the coefficients
+  std::vector<Eigen::MatrixXd> local_;  ///< of each order: amplitudes of all local forms' columns
+  Eigen::VectorXd mean_, spread_;       ///< of the coefficients
   double noise_mm_ = 0.0;
   std::vector<double> cosine_, sine_;  ///< of the grid of angles
   std::vector<double> band_;           ///< share of each order that the pass band lets through
   std::vector<Station> stations_;
+  /// What the readings have on average at the tops of local forms beyond them.
+  struct Top {
+    LocalForm form;
+    double height_mm;
+  };
+  std::vector<Top> unfollowed_tops_;
   std::vector<Eigen::MatrixXd> taken_off_;  ///< columns for independent normal numbers
 };
 

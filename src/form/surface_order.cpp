@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "form/order_evidence.hpp"
+#include "form/surface_local.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::form {
@@ -54,6 +55,14 @@ SurfaceOrder::SurfaceOrder(int order, int first_degree, int degrees, Index colum
   }
 }
 
+SurfaceOrder::SurfaceOrder(Index column, const MatrixXd& normal, double log_tests)
+    : log_tests_(log_tests), column_(column), seen_(0, normal.rows()) {
+  VectorXd weight(normal.rows());
+  for (Index k = 0; k < weight.size(); ++k)
+    weight[k] = LocalForm::shapes[static_cast<std::size_t>(k)].variance;
+  add_course(weight, normal);
+}
+
 void SurfaceOrder::add_course(const VectorXd& weight, const MatrixXd& normal) {
   std::vector<Index> there;
   for (Index i = 0; i < size(); ++i)
@@ -79,6 +88,7 @@ void SurfaceOrder::evidence(const VectorXd& right, double variance, std::span<co
     weigh_sizes({values_.data() + from, to - from}, {squares.data() + from, to - from}, gain,
                 variance, out.col(course).data());
   }
+  out.array() -= log_tests_;
 }
 
 VectorXd SurfaceOrder::draw(const VectorXd& right, double variance, Index course, double size,

@@ -16,7 +16,10 @@ class SurfaceOrder {
   /// @param normal AᵀA of the order's own columns
   SurfaceOrder(int order, int first_degree, int degrees, Eigen::Index column,
                const Eigen::MatrixXd& normal);
+  /// A local form in the place of an order. @param log_tests ln of the places looked at
+  SurfaceOrder(Eigen::Index column, const Eigen::MatrixXd& normal, double log_tests);
 
+  /// −1: a local form
   int order() const { return order_; }
   Eigen::Index column() const { return column_; }
   Eigen::Index size() const { return seen_.cols(); }
@@ -37,7 +40,8 @@ class SurfaceOrder {
   Eigen::Index begin(Eigen::Index course) const { return begin_[static_cast<std::size_t>(course)]; }
   void add_course(const Eigen::VectorXd& weight, const Eigen::MatrixXd& normal);
 
-  int order_, first_degree_;
+  int order_ = -1, first_degree_ = 1;
+  double log_tests_ = 0.0;
   Eigen::Index column_;
   /// √w AᵀA √w = V diag(λ) Vᵀ of each course, of the columns whose w is not 0, one after the other.
   std::vector<Eigen::Index> begin_{0};

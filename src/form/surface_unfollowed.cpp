@@ -15,6 +15,7 @@ void SurfaceModel::find_unfollowed() {
   constexpr Eigen::Index unknowns = 3;
   constexpr double beyond_noise = 3.0;  // standard deviations of χ²: 0.3 % of surfaces without
   const std::vector<double> left = left_mm();
+  find_unfollowed_tops(left);
   const double reach = std::max(0.25 / terms_.degrees, 1.0 / turns_);
   double chi_squared = 0.0, freedom = 0.0;
   for (Station& station : stations_) {
@@ -38,6 +39,22 @@ void SurfaceModel::find_unfollowed() {
   const double noise_mm2 = noise_mm_ * noise_mm_;
   if (chi_squared > noise_mm2 * (freedom + beyond_noise * std::sqrt(2.0 * freedom))) return;
   for (Station& station : stations_) station.unfollowed_mm.setZero();
+}
+
+/// A top that is more pointed or flatter than the form fitted: half as wide and long, where the
+/// readings have it with two standard deviations. Every value is off by a share of it with u = 1.
+void SurfaceModel::find_unfollowed_tops(const std::vector<double>& left_mm) {
+  constexpr double narrower = 0.5, beyond_noise = 2.0;
+  for (const LocalForm& form : posterior_.local) {
+    const LocalForm top{form.angle_rad, narrower * form.width_rad, form.t, narrower * form.length};
+    double square = 0.0, product = 0.0;
+    for (std::size_t i = 0; i < t_.size(); ++i) {
+      const double g = top.at(angle_rad_[i], t_[i])[0];
+      square += g * g, product += g * left_mm[i];
+    }
+    if (product * product > beyond_noise * beyond_noise * noise_mm_ * noise_mm_ * square)
+      unfollowed_tops_.push_back({top, product / square});
+  }
 }
 
 }  // namespace trueaxis::form

@@ -62,7 +62,8 @@ TEST(FormSurface, AStationIsAtTheTopOfLocalLobes) {
 }
 
 // 1.5 and 2.5 periods along Z, which the degrees follow to 30 nm and to 0.5 µm: it was 21.95 ±
-// 0.016 for 22. The lobes are as high everywhere, and the true CYLt is the range of both.
+// 0.016 for 22. The lobes are as high everywhere, and the true CYLt is the range of both. 3 u: once
+// in 370, as the draws differ from processor to processor by rounding.
 TEST(FormSurface, ACourseThatNoDegreeFollowsIsInU) {
   for (const double periods : {1.5, 2.5}) {
     const auto course = [&](double c, double z) {
@@ -72,8 +73,8 @@ TEST(FormSurface, ACourseThatNoDegreeFollowsIsInU) {
     const FormResult result = assess_form(helix(course, 1e-4, 1), band(50.0));
     const FormValue& cylindricity = of_whole(result, "CYLt", "MZCY");
     const double expected = 0.02 + 0.002 * through(3.0, 50.0);
-    EXPECT_LE(least_of(cylindricity, 2.0), expected) << periods;
-    EXPECT_GE(most_of(cylindricity, 2.0), expected) << periods;
+    EXPECT_LE(least_of(cylindricity, 3.0), expected) << periods;
+    EXPECT_GE(most_of(cylindricity, 3.0), expected) << periods;
     EXPECT_LT(cylindricity.estimate.u, 1e-3) << periods;
   }
 }
