@@ -23,5 +23,5 @@ if(TRUEAXIS_TESTS)
     set_tests_properties(python.${name} PROPERTIES LABELS python TIMEOUT 400 ENVIRONMENT
       "PYTHONPATH=${PROJECT_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;MPLBACKEND=Agg;TRUEAXIS_COMMAND=$<TARGET_FILE:trueaxis>;TRUEAXIS_BUILD=${PROJECT_BINARY_DIR}")
   endforeach()
-  set_tests_properties(python.test_install PROPERTIES COST 30 RESOURCE_LOCK build)  # it builds
+  set_tests_properties(python.test_install PROPERTIES COST 100 RESOURCE_LOCK build)  # it builds
 endif()

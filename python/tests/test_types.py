@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The package and a user of it have types that mypy accepts; the stub of the module says what is there."""
-import os
 import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 import trueaxis as ta
 from trueaxis import _core
 
@@ -22,17 +22,23 @@ tips.shape
 """
 
 
-def mypy(*words):
-    return subprocess.run([sys.executable, "-m", "mypy", "--config-file", str(PYTHON.parent / "pyproject.toml"), "--cache-dir",
-                           os.devnull, *words], capture_output=True, text=True, cwd=PYTHON)
+@pytest.fixture(scope="module")
+def mypy(tmp_path_factory):
+    """Its runs share what it has read of NumPy; the first of them has nothing to go on from."""
+    cache = tmp_path_factory.mktemp("mypy")
+
+    def ran(*words):
+        return subprocess.run([sys.executable, "-m", "mypy", "--config-file", str(PYTHON.parent / "pyproject.toml"), "--cache-dir",
+                               str(cache), *words], capture_output=True, text=True, cwd=PYTHON)
+    return ran
 
 
-def test_the_package_has_strict_types():
+def test_the_package_has_strict_types(mypy):
     ran = mypy("-p", "trueaxis")
     assert ran.returncode == 0, ran.stdout
 
 
-def test_a_user_has_types(tmp_path):
+def test_a_user_has_types(tmp_path, mypy):
     (tmp_path / "user.py").write_text(USER)
     ran = mypy(str(tmp_path / "user.py"))
     assert ran.returncode == 0, ran.stdout

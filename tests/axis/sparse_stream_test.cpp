@@ -105,8 +105,8 @@ TEST(SparseDesign, LobesMoveNoAxis) {
 // it may be mistaken for another form.
 TEST(SparseDesign, LocalFormsMoveTheAxisLess) {
   Tally tally;
-  tally.add(Hidden::local, 24);
-  tally.add(Hidden::both, 24);
+  tally.add(Hidden::local, 16);
+  tally.add(Hidden::both, 16);
   EXPECT_LT(tally.stated2, tally.ideal2);
   EXPECT_GE(tally.halved, at_least(tally.streams, 0.5));
   EXPECT_LE(tally.worse, at_most(tally.streams, 0.02));
