@@ -186,7 +186,7 @@ class Chain {
         from += own;
       }
     }
-    raw.topRows(terms_.size()) = surface_sums(terms_, data_.angle_rad, data_.t, columns).right;
+    raw.topRows(terms_.size()) = surface_right(terms_, data_.angle_rad, data_.t, columns);
     MatrixXd of_base(static_cast<Index>(base_columns_.size()), own);
     for (std::size_t i = 0; i < base_columns_.size(); ++i)
       of_base.row(static_cast<Index>(i)) = raw.row(base_columns_[i]);
@@ -228,7 +228,8 @@ class Chain {
               .segment<LocalForm::columns>(terms_.size() +
                                            LocalForm::columns * static_cast<Index>(k))
               .setZero();
-          put_local(k, search_.refined(local_, others, k));
+          const LocalForm refined = search_.refined(local_, others, k);
+          if (refined.differs(local_[k])) put_local(k, refined);
         }
       }
       clear();

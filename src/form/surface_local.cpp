@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/linear_algebra.hpp"
+#include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::form {
@@ -22,9 +23,10 @@ constexpr double least_steps = 0.6;  // a standard deviation, in steps from angl
 constexpr double least_waves = 4.5;  // of the highest order, in a radian of the width
 constexpr Index most_cells = 96, most_cells_along = 40;
 constexpr std::size_t most_readings = 16384;
+constexpr double clipped_medians = 6.0;  // 4 σ of normal noise
 constexpr double golden = 0.6180339887498949;
 constexpr int steps_of_refining = 8;
-constexpr double smallest_share = 1e-5;
+constexpr double smallest_share = 1e-4;
 
 /// He_k(x) exp(−x²/2).
 class Hermite {
@@ -54,6 +56,14 @@ MatrixXd kernel(Index cells, double step, double deviation, bool closed) {
 }
 
 }  // namespace
+
+bool LocalForm::differs(const LocalForm& from) const {
+  constexpr double share = 0.05;
+  const double around = std::abs(std::remainder(angle_rad - from.angle_rad, two_pi)) +
+                        std::abs(width_rad - from.width_rad);
+  return around > share * width_rad ||
+         std::abs(t - from.t) + std::abs(length - from.length) > share * length;
+}
 
 LocalForm::Row LocalForm::at(double angle, double place) const {
   const Hermite around(std::remainder(angle - angle_rad, two_pi) / width_rad);
@@ -108,7 +118,7 @@ double height_of(const SurfaceTerms& terms, std::span<const LocalForm> local, co
 
 LocalFormSearch::LocalFormSearch(const SurfaceTerms& terms, const SurfaceData& data)
     : terms_(terms), data_(data) {
-  // Of many readings some, at places that follow no step of the angles.
+  // If there are many readings, some of them, at places that follow no step of the angles.
   const std::size_t all = data.t.size(), count = std::min(all, most_readings);
   const double step = static_cast<double>(all) / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -142,7 +152,7 @@ LocalFormSearch::LocalFormSearch(const SurfaceTerms& terms, const SurfaceData& d
       size.along = kernel(places, step_t, size.length, false);
       size.squares = linear::product(linear::product(size.around.cwiseAbs2(), readings),
                                      size.along.cwiseAbs2());
-      // Two places a deviation apart are as good as independent.
+      // Places a standard deviation apart count as independent.
       tests += std::max(1.0, two_pi / size.width_rad) * std::max(1.0, 2.0 / size.length);
       sizes_.push_back(std::move(size));
     }
@@ -156,7 +166,12 @@ std::optional<LocalFormSearch::Found> LocalFormSearch::best(std::span<const Loca
   const std::vector<double> left = left_mm(local, q);
   const Size& first = sizes_.front();
   MatrixXd sums = MatrixXd::Zero(first.around.rows(), first.along.rows());
-  for (std::size_t k = 0; k < some_.size(); ++k) sums(cell_[k].angle, cell_[k].length) += left[k];
+  std::vector<double> size_mm;
+  for (const double one : left) size_mm.push_back(std::abs(one));
+  // So that a chip, which one reading meets, is not where a form is looked for.
+  const double most_mm = clipped_medians * median(size_mm);
+  for (std::size_t k = 0; k < some_.size(); ++k)
+    sums(cell_[k].angle, cell_[k].length) += std::clamp(left[k], -most_mm, most_mm);
   LocalForm form;
   double gain = 0.0;
   const double step_rad = two_pi / static_cast<double>(sums.rows()),
@@ -174,6 +189,7 @@ std::optional<LocalFormSearch::Found> LocalFormSearch::best(std::span<const Loca
   if (gain < variance) return {};
   refine(left, form, gain);
   if (gain_all_round(left, form) > gain) return {};
+  gain = gain_without_strongest(left, form);
   // As many readings as were looked at stand for all.
   const double of_all = static_cast<double>(data_.t.size()) / static_cast<double>(some_.size());
   const double over = of_all * gain / variance;
@@ -189,7 +205,27 @@ std::vector<double> LocalFormSearch::left_mm(std::span<const LocalForm> local,
   return left;
 }
 
-/// What radius and centre about the place gain: a course that no degree follows is no local form.
+/// What the form gains by the readings without the two that speak for it most.
+double LocalFormSearch::gain_without_strongest(const std::vector<double>& left,
+                                               const LocalForm& form) const {
+  std::vector<std::pair<double, double>> each;  // product and square
+  double product = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < some_.size(); ++k) {
+    const double g = form.at(data_.angle_rad[some_[k]], data_.t[some_[k]])[0];
+    each.emplace_back(g * left[k], g * g);
+    product += each.back().first, square += each.back().second;
+  }
+  const double sign = product < 0.0 ? -1.0 : 1.0;
+  std::ranges::partial_sort(each, each.begin() + 2, std::ranges::greater{},
+                            [&](const auto& one) { return sign * one.first; });
+  for (int k = 0; k < 2; ++k) {
+    product -= each[static_cast<std::size_t>(k)].first;
+    square -= each[static_cast<std::size_t>(k)].second;
+  }
+  return sign * product > 0.0 && square > 0.0 ? product * product / square : 0.0;
+}
+
+/// What radius and centre about the place gain. A course that no degree follows gains more by them.
 double LocalFormSearch::gain_all_round(const std::vector<double>& left,
                                        const LocalForm& form) const {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();

@@ -33,6 +33,9 @@ struct LocalForm {
   static constexpr Eigen::Index columns = shapes.size();
   double angle_rad = 0.0, width_rad = 0.0, t = 0.0, length = 0.0;
 
+  /// By more than a twentieth of width or length, which the columns follow.
+  bool differs(const LocalForm& from) const;
+
   using Row = Eigen::Matrix<double, 1, columns>;
   using Pair = Eigen::Matrix<double, 2, columns>;
   Row at(double angle, double place) const;
@@ -80,6 +83,7 @@ class LocalFormSearch {
     Eigen::MatrixXd around, along, squares;  ///< kernels over cells, and Σ of their squares
   };
   std::vector<double> left_mm(std::span<const LocalForm> local, const Eigen::VectorXd& q) const;
+  double gain_without_strongest(const std::vector<double>& left, const LocalForm& form) const;
   double gain_all_round(const std::vector<double>& left, const LocalForm& form) const;
   void refine(const std::vector<double>& left_mm, LocalForm& form, double& gain) const;
 

@@ -29,7 +29,7 @@ constexpr double degrees_a_turn = 1.25, stations_a_degree = 1.5;
 constexpr int between_stations = 16;  // places that are looked at
 constexpr double seen = 0.05, certain = 0.999;
 constexpr std::size_t angles_a_wave = 32, angles_of_doubtful = 3;  // an order more likely absent
-constexpr double angles_a_width = 8.0;  // of a local form: its top is read 0.2 % low
+constexpr double angles_a_width = 6.0;  // of a local form: its top is read 0.3 % low
 constexpr std::size_t fewest_angles = 96, most_angles = 720;
 constexpr double turns_about_a_station = 3.0;
 constexpr double widest_of_steps = 2.5;  // of a turn's: a step that is not a gap

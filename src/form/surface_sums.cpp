@@ -23,9 +23,11 @@ constexpr double longer = 1.25;      // than the readings: where the cosines hav
 /// Sums over readings of f_d f_e, e ≤ d, and y f_d, times exp(ikθ).
 class Sums {
  public:
-  Sums(const SurfaceTerms& terms, std::size_t right_sides)
+  /// @param products whether f_d f_e are summed too, else y f_d alone
+  Sums(const SurfaceTerms& terms, std::size_t right_sides, bool products)
       : degrees_(terms.degrees),
-        orders_(2 * terms.orders),
+        orders_(products ? 2 * terms.orders : terms.orders),
+        products_(products ? row_of(terms.degrees + 1, 0) : 0),
         sums_(MatrixXd::Zero(row_of_right(static_cast<Index>(right_sides), 0), 2 * orders_ + 2)) {}
 
   void add(std::span<const double> angle_rad, std::span<const double> t,
@@ -51,15 +53,13 @@ class Sums {
   Complex at(Index row, Index k) const { return {sums_(row, k), sums_(row, orders_ + 1 + k)}; }
 
   static Index row_of(Index d, Index e) { return d * (d + 1) / 2 + e; }
-  Index row_of_right(Index y, Index d) const {
-    return row_of(degrees_ + 1, 0) + y * (degrees_ + 1) + d;
-  }
+  Index row_of_right(Index y, Index d) const { return products_ + y * (degrees_ + 1) + d; }
 
   void fill_along(MatrixXd& along, Index i, double t, std::span<const std::vector<double>> y_mm,
                   std::size_t reading) const {
     const Eigen::VectorXd f = form::along(static_cast<int>(degrees_), t);
     for (Index d = 0; d <= degrees_; ++d) {
-      for (Index e = 0; e <= d; ++e) along(i, row_of(d, e)) = f[d] * f[e];
+      for (Index e = 0; products_ > 0 && e <= d; ++e) along(i, row_of(d, e)) = f[d] * f[e];
       for (std::size_t y = 0; y < y_mm.size(); ++y)
         along(i, row_of_right(static_cast<Index>(y), d)) = y_mm[y][reading] * f[d];
     }
@@ -79,7 +79,7 @@ class Sums {
     }
   }
 
-  Index degrees_, orders_;
+  Index degrees_, orders_, products_;
   MatrixXd sums_;
 };
 
@@ -133,29 +133,48 @@ Eigen::VectorXd along(int degrees, double t) {
   return out;
 }
 
-SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angle_rad,
-                         std::span<const double> t, std::span<const std::vector<double>> y_mm) {
-  Sums sums(terms, y_mm.size());
-  SurfaceSums out;
-  out.count = t.size();
+namespace {
+
+Sums summed(const SurfaceTerms& terms, std::span<const double> angle_rad, std::span<const double> t,
+            std::span<const std::vector<double>> y_mm, bool products) {
+  Sums sums(terms, y_mm.size(), products);
   for (std::size_t begin = 0; begin < t.size(); begin += block) {
     const std::size_t n = std::min(block, t.size() - begin);
     sums.add(angle_rad.subspan(begin, n), t.subspan(begin, n), y_mm, begin);
   }
-  out.normal = NormalMatrix(terms, sums).take();
-  const auto right_sides = static_cast<Index>(y_mm.size());
-  out.right.resize(terms.size(), right_sides);
-  out.squares = Eigen::VectorXd::Zero(right_sides);
-  for (Index y = 0; y < right_sides; ++y) {
-    for (const double one : y_mm[static_cast<std::size_t>(y)]) out.squares[y] += one * one;
+  return sums;
+}
+
+MatrixXd right_of(const SurfaceTerms& terms, const Sums& sums, std::size_t count) {
+  MatrixXd right(terms.size(), static_cast<Index>(count));
+  for (Index y = 0; y < right.cols(); ++y)
     for (int n = 0; n <= terms.orders; ++n)
       for (int d = 0; d <= terms.degrees_of(n); ++d) {
         const Complex sum = sums.with_y(y, d, n);
-        out.right(terms.column(n, d), y) = sum.real();
-        if (n > 0) out.right(terms.column(n, d) + 1, y) = sum.imag();
+        right(terms.column(n, d), y) = sum.real();
+        if (n > 0) right(terms.column(n, d) + 1, y) = sum.imag();
       }
-  }
+  return right;
+}
+
+}  // namespace
+
+SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angle_rad,
+                         std::span<const double> t, std::span<const std::vector<double>> y_mm) {
+  const Sums sums = summed(terms, angle_rad, t, y_mm, true);
+  SurfaceSums out;
+  out.count = t.size();
+  out.normal = NormalMatrix(terms, sums).take();
+  out.right = right_of(terms, sums, y_mm.size());
+  out.squares = Eigen::VectorXd::Zero(out.right.cols());
+  for (Index y = 0; y < out.right.cols(); ++y)
+    for (const double one : y_mm[static_cast<std::size_t>(y)]) out.squares[y] += one * one;
   return out;
+}
+
+MatrixXd surface_right(const SurfaceTerms& terms, std::span<const double> angle_rad,
+                       std::span<const double> t, std::span<const std::vector<double>> y_mm) {
+  return right_of(terms, summed(terms, angle_rad, t, y_mm, false), y_mm.size());
 }
 
 }  // namespace trueaxis::form

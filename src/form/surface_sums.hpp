@@ -47,4 +47,8 @@ struct SurfaceSums {
 SurfaceSums surface_sums(const SurfaceTerms& terms, std::span<const double> angle_rad,
                          std::span<const double> t, std::span<const std::vector<double>> y_mm);
 
+/// Aᵀy of each y alone.
+Eigen::MatrixXd surface_right(const SurfaceTerms& terms, std::span<const double> angle_rad,
+                              std::span<const double> t, std::span<const std::vector<double>> y_mm);
+
 }  // namespace trueaxis::form

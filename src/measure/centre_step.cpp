@@ -19,6 +19,24 @@ using namespace step_model;
 
 constexpr double mostly = 0.25;        // of the scatter about a line, left by a step
 constexpr std::size_t least_side = 2;  // centres
+constexpr double likelier = 9.0;       // than a bump: e^4.5 times, or one in 90
+
+/// What the best displacement that comes back leaves, as many parameters as a step: a bump of the
+/// part that some turns meet.
+double squares_about_bump(const Eigen::MatrixXd& line, const Eigen::MatrixX2d& centres) {
+  constexpr double widths[] = {0.03, 0.045, 0.07, 0.1, 0.15, 0.22, 0.33};  // of the run
+  Eigen::MatrixXd model(line.rows(), 4);
+  model.leftCols(3) = line;
+  const Eigen::ArrayXd t = line.col(2);
+  const double range = t.maxCoeff() - t.minCoeff();
+  double least = squares_about(line, centres);
+  for (const double width : widths)
+    for (Eigen::Index k = 0; k < line.rows(); ++k) {
+      model.col(3) = (-0.5 * ((t - t[k]) / (width * range)).square()).exp();
+      least = std::min(least, squares_about(model, centres));
+    }
+  return least;
+}
 
 /// The step in one run of turns: a line along Z and a drift in time are not steps, nor is a bend.
 std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm, double by_chance) {
@@ -49,7 +67,10 @@ std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm, 
   const double noise = 2.0 * static_cast<double>(n) * u_mm * u_mm;
   if (at == 0 || least - noise > mostly * (about_line - noise)) return {};
   // A step and a change of slope of x and of y are four parameters, each centre a place for them.
-  if (about_bend - least < enough(by_chance, run.size()) * variance(centres, u_mm)) return {};
+  const double unit = variance(centres, u_mm);
+  if (about_bend - least < enough(by_chance, run.size()) * unit ||
+      squares_about_bump(model.leftCols(3), centres) - least < likelier * unit)
+    return {};
   // What a fit took of the step is a line, which is another column. The first turn may hold it.
   begin_at(at);
   const Eigen::MatrixXd sizes = linear::least_squares(model, Eigen::MatrixXd(centres));

@@ -8,6 +8,7 @@
 #include "calibrate/diagnose/catalogue.hpp"
 #include "calibrate/diagnose/explain.hpp"
 #include "calibrate/diagnose/find.hpp"
+#include "calibrate/diagnose/unexplained.hpp"
 #include "calibrate/estimate/plausible_errors.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "calibrate/estimate/total_uncertainty.hpp"
@@ -236,19 +237,6 @@ std::vector<MachineFinding> findings_of(const Found& search) {
   return all;
 }
 
-/// Amplitude of a term in these residuals over σ, mm or rad: all other numbers stay as they are. No
-/// more than their noise makes is 0, because U counts it.
-double amplitude_in(const VectorXd& residuals, double variance, const Problem& problem,
-                    const Term& term) {
-  constexpr double beyond_noise = 3.0;  // standard deviations of χ²
-  const MatrixXd columns = linear::scaled_rows(problem.weights, term.columns);
-  const auto fit = linear::shortest_solution(columns, residuals);
-  const auto freedom = static_cast<double>(fit.rank);
-  const double squares = (columns * fit.x).squaredNorm();
-  return squares > variance * (freedom + beyond_noise * std::sqrt(2.0 * freedom)) ? fit.x.norm()
-                                                                                  : 0.0;
-}
-
 /// χ² of all that is left: p if the stated noise does not explain the scatter.
 std::optional<double> scatter(const TipFit& fit, const Found& search, double false_alarm) {
   if (!fit.problem.noise_stated) return {};
@@ -259,48 +247,6 @@ std::optional<double> scatter(const TipFit& fit, const Found& search, double fal
   if (p >= false_alarm) return {};
   return p;
 }
-
-/// What no effect explains, with the amplitude that a calibration of the readings leaves.
-class Unexplained {
- public:
-  Unexplained(const TipFit& fit, const Calibration& counted)
-      : problem_(fit.problem),
-        residuals_(fit.problem.weights.cwiseProduct(
-            fit.problem.residuals(counted.errors, best_places(fit.problem, counted.errors)))),
-        variance_(
-            std::pow(counted.noise_mm / fit.problem.rms_mm(fit.problem.weights.cwiseInverse()), 2)),
-        noise_as_stated_(counted.noise_basis == NoiseBasis::stated) {}
-
-  MachineUnexplained pattern(const Term& term, const MachineFinding& found) const {
-    double square = 0.0;
-    for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
-    const bool named = !term.is_pattern();
-    return {{{found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
-              found.cause.unit, ""},
-             found.p_value},
-            found.effect() + (named                 ? ", which may be part of something unknown"
-                              : term.of_one_reading ? " (measure it again, or leave the row out)"
-                                                    : ""),
-            named,
-            std::min(found.size, amplitude_in(residuals_, variance_, problem_, term)),
-            found.parameters,
-            found.covariance,
-            term.error ? ErrorOfPosition{*term.error, {}, {}} : found.cause.term};
-  }
-
-  MachineUnexplained scatter(double noise_mm, double freedom, double p) const {
-    return {{{noise_mm, noise_mm / std::sqrt(2.0 * freedom), "mm", ""}, p},
-            "scatter above the stated noise",
-            false,
-            noise_as_stated_ ? 0.0 : noise_mm};
-  }
-
- private:
-  const Problem& problem_;
-  VectorXd residuals_;
-  double variance_;  ///< of one of them
-  bool noise_as_stated_;
-};
 
 void state_findings(const TipFit& fit, const Found& search, const std::vector<MachineFinding>& all,
                     const std::vector<bool>& unknown, const std::optional<Unexplained>& unexplained,
