@@ -8,6 +8,14 @@
 namespace trueaxis::linear {
 namespace {
 
+/// Eigen cuts a product into blocks by the caches of the processor, so that its last digits, and
+/// what a Markov chain makes of them, were those of the machine. With these they are the same.
+[[maybe_unused]] const bool same_everywhere =
+    (Eigen::setCpuCacheSizes(32 * 1024, 512 * 1024, 16 * 1024 * 1024), true);
+
+}  // namespace
+namespace {
+
 Eigen::CompleteOrthogonalDecomposition<MatrixXd> orthogonal(const MatrixXd& a, double threshold) {
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
   if (threshold > 0.0) factors.setThreshold(threshold);
